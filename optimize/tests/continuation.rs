@@ -179,20 +179,35 @@ fn curves_tell_where_they_meet_and_have_their_points() {
     report.shows("curves.svg", &["resonant grazing (RG)"]);
 }
 
+/// Symbols of the curves in two parameters with the drive periods of their orbits, sorted.
+fn kinds(report: &Report) -> Vec<String> {
+    let curves = report.list("curves/curves").iter();
+    let kinds =
+        curves.map(|it| format!("{}{}", it["symbol"].as_str().unwrap_or(""), it["periods"]));
+    let mut kinds: Vec<_> = kinds.collect();
+    kinds.sort_unstable();
+    kinds
+}
+
+/// Special points of doubled branches begin curves, too, and those that begin none are listed.
+#[test]
+fn special_points_of_doubled_branches_are_followed_in_two_parameters() {
+    let line = "continue --parameter eta --from 0.95 --to 1.5 --second rho --second-from 9 --second-to 11 --double 1";
+    let report = SOFTSTOP.report(line);
+    let specials = report.list("branches/1/specials").len();
+    let of_doubled = |it: &&serde_json::Value| it["periods"] == 2;
+    let curves = report.list("curves/curves").iter().filter(of_doubled);
+    let not_followed = report.list("curves/not_followed").iter().filter(of_doubled);
+    assert_eq!(curves.count() + not_followed.count(), specials);
+    assert_eq!(kinds(&report), ["G1", "G1", "G2", "PD1", "SN1"]);
+}
+
 /// From the points of codimension two of the flips begin curves of folds, of the orbits and of those of twice the period, and
 /// from a point of these another one of grazing.
 #[test]
 fn curves_switch_in_points_of_codimension_two() {
     let line =
         "continue --parameter eta --from 0.5 --to 2 --second rho --second-from 1 --second-to 24";
-    let kinds = |report: &Report| {
-        let curves = report.list("curves/curves").iter();
-        let kinds =
-            curves.map(|it| format!("{}{}", it["symbol"].as_str().unwrap_or(""), it["periods"]));
-        let mut kinds: Vec<_> = kinds.collect();
-        kinds.sort_unstable();
-        kinds
-    };
     assert_eq!(kinds(&SOFTSTOP.report(line)), ["G1", "G1", "PD1", "SN1"]);
     let report = SOFTSTOP.report(&format!("{line} --switch 3"));
     assert_eq!(

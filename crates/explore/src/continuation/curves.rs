@@ -16,7 +16,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
-/// The curves of special points of a branch in two parameters.
+/// The curves of special points of some branches in two parameters.
 pub(super) struct Curves<'a> {
     /// The curves.
     pub found: Vec<Curve>,
@@ -26,11 +26,13 @@ pub(super) struct Curves<'a> {
 
 /// A special point that no curve in two parameters could be followed from, and why.
 pub(super) struct NotFollowed<'a> {
+    /// Drive periods of its orbit.
+    pub periods: u64,
     pub special: &'a Special,
     pub error: OrbitError,
 }
 
-/// Follows the special points of a branch in both parameters.
+/// Follows the special points of branches, as of the start and doubled ones, in both parameters.
 ///
 /// # Errors
 /// [`Failure::Run`] if none of them could be followed.
@@ -38,7 +40,7 @@ pub(super) fn curves<'a>(
     machine: &Machine,
     arguments: &ContinueArguments,
     both: [&Followed; 2],
-    branch: &'a Branch,
+    branches: &'a [Branch],
 ) -> Result<Curves<'a>, Failure> {
     let family: &dyn Family<2> = &family(machine, both.map(|one| one.parameter))?;
     let region = CurveLimits {
@@ -49,23 +51,28 @@ pub(super) fn curves<'a>(
     let bar = Progress::open("points of curves");
     let (mut found, mut not_followed) = (Vec::<Curve>::new(), Vec::new());
     let start = |special: &Special| [special.point.parameter, both[1].start];
-    let is_on = |special: &Special, curves: &[Curve]| {
+    let is_on = |(periods, special): (u64, &Special), curves: &[Curve]| {
         let mut curves = curves.iter();
-        curves.any(|curve| passes(curve, special.kind, start(special)))
+        curves.any(|it| is_of(it, &special.kind, periods) && passes(it, start(special)))
     };
-    let followed = branch.specials.iter();
-    for special in followed.filter(|it| it.kind != SpecialKind::Pitchfork) {
-        if is_on(special, &found) {
+    let all = branches.iter().flat_map(|branch| {
+        let specials = branch.specials.iter();
+        specials.map(|special| (branch.periods, special))
+    });
+    for (periods, special) in all.filter(|(_, it)| it.kind != SpecialKind::Pitchfork) {
+        if is_on((periods, special), &found) {
             continue;
         }
         let kind = (special.kind, special.point.state());
         let start = start(special);
-        let curve = follow_special(family, branch.periods, kind, start, &region, |_| {
-            count(&bar)
-        });
+        let curve = follow_special(family, periods, kind, start, &region, |_| count(&bar));
         match curve {
             Ok(curve) => found.push(curve),
-            Err(error) => not_followed.push(NotFollowed { special, error }),
+            Err(error) => not_followed.push(NotFollowed {
+                periods,
+                special,
+                error,
+            }),
         }
     }
     let place = |point: &CurvePoint| Vector2::from(family.scaled_parameters(point.parameters));
@@ -95,13 +102,15 @@ pub(super) fn curves<'a>(
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
-    not_followed.retain(|it: &NotFollowed<'_>| !is_on(it.special, &found));
+    not_followed.retain(|it: &NotFollowed<'_>| !is_on((it.periods, it.special), &found));
     if found.is_empty() && !not_followed.is_empty() {
         let name = machine.name(both[0].parameter);
-        let failed = not_followed.iter().map(|NotFollowed { special, error }| {
-            let (kind, place) = (special.kind.name(), special.point.parameter);
-            format!("no curve of the {kind} at {name} = {place}: {error}")
-        });
+        let failed = not_followed
+            .iter()
+            .map(|NotFollowed { special, error, .. }| {
+                let (kind, place) = (special.kind.name(), special.point.parameter);
+                format!("no curve of the {kind} at {name} = {place}: {error}")
+            });
         let failed: Vec<_> = failed.collect();
         return Err(Failure::Run(anyhow!(failed.join("\n       "))));
     }
@@ -129,8 +138,8 @@ fn has_special(
 /// Scaled distance of a point of codimension two from itself on another curve: generalised flips are good to a tenth of it.
 const SAME_POINT: f64 = 1e-5;
 
-/// True if a curve of the same kind passes a point.
-fn passes(curve: &Curve, kind: SpecialKind, [p, q]: [f64; 2]) -> bool {
+/// True if a curve passes a point.
+fn passes(curve: &Curve, [p, q]: [f64; 2]) -> bool {
     let between = |a: f64, b: f64, value: f64| (a - value) * (b - value) <= 0.0;
     let crosses = |pair: &[CurvePoint]| {
         let ([a, c], [b, d]) = (pair[0].parameters, pair[1].parameters);
@@ -140,7 +149,7 @@ fn passes(curve: &Curve, kind: SpecialKind, [p, q]: [f64; 2]) -> bool {
         let at = a + (b - a) * (q - c) / (d - c);
         (at - p).abs() < SAME * (b - a).abs().max(SAME * p.abs())
     };
-    curve.kind.symbol() == kind.symbol() && curve.points.windows(2).any(crosses)
+    curve.points.windows(2).any(crosses)
 }
 
 /// Share of a step of a curve within which it passes a point.

@@ -83,7 +83,8 @@ pub struct ContinueArguments {
     /// Follow the orbits of twice the period from every flip on, and asymmetric ones from every pitchfork, so many times over
     #[arg(long, value_name = "TIMES", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
     pub double: u32,
-    /// Second parameter: follow each special point but pitchforks as a curve in both; those that begin none are listed
+    /// Second parameter: follow each special point but pitchforks, those of doubled branches too, as a curve in both; those that
+    /// begin none are listed
     #[arg(long, value_name = "NAME", requires_all = ["second_from", "second_to"])]
     pub second: Option<String>,
     /// Lowest value of the second parameter
@@ -159,7 +160,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     let mut curves = None;
     if let Some(second) = &second {
         let both = [&first, second];
-        let found = limit.limit(|| curves::curves(&machine, arguments, both, &branches[0]))?;
+        let found = limit.limit(|| curves::curves(&machine, arguments, both, &branches))?;
         let chart = chart::curves(&machine, both.map(|one| one.parameter), &found.found);
         let rows = found.found.iter().enumerate();
         let rows = rows.flat_map(tables::curve_rows);

@@ -69,9 +69,10 @@ fn codimension_two<'a>() -> [Column<OnCurve<'a>>; 6] {
     }
 }
 
-fn not_followed<'a>() -> [Column<NotFollowed<'a>>; 4] {
+fn not_followed<'a>() -> [Column<NotFollowed<'a>>; 5] {
     columns! { NotFollowed<'a>, it;
         "symbol" [None] Plain, "SN, PD, NS or G" => it.special.kind.symbol();
+        "periods" [None] Plain, "drive periods n of its orbit" => it.periods;
         "name" [None] Plain, "what it is" => describe(it.special);
         "value" [None] Fixed(12), "of the first parameter" => it.special.point.parameter;
         "reason" [None] Plain, "why no curve begins there" => it.error.to_string();
