@@ -11,11 +11,11 @@ use softstop_console::failure::Failure;
 use softstop_console::machine::PaperMachine;
 use softstop_console::range::{require, within};
 use softstop_console::{record_log, scene_file};
-use softstop_dynamics::attractors::Region;
 use softstop_dynamics::points::MAX_DIMENSIONS;
 use softstop_dynamics::settled::Settling;
 
 use super::axis::{Axis, AxisSettings};
+use super::certainty::Certainty;
 use super::outputs::Output;
 
 /// The file.
@@ -63,35 +63,6 @@ impl Default for Motion {
 
 /// Times as many drive periods that a motion is followed if it has not returned, unless the study says how many.
 const PATIENCE: u64 = 16;
-
-/// The table `[certainty]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct Certainty {
-    /// Starts at each point.
-    pub starts: usize,
-    /// Where they lie, if not in the box of each machine's own size.
-    position: Option<[f64; 2]>,
-    velocity: Option<[f64; 2]>,
-}
-
-impl Certainty {
-    /// Where starts lie, if that is said.
-    pub fn region(&self) -> Option<Region> {
-        let (position, velocity) = self.position.zip(self.velocity)?;
-        Some(Region { position, velocity })
-    }
-}
-
-impl Default for Certainty {
-    fn default() -> Self {
-        Self {
-            starts: 64,
-            position: None,
-            velocity: None,
-        }
-    }
-}
 
 /// Most points: Parquet has no room for more row groups.
 pub(super) const MOST: u64 = 4_000_000_000;
@@ -181,7 +152,7 @@ impl Study {
         }
         let mut study = Self {
             settling: settling(&file.motion)?,
-            certainty: certainty(&file.certainty)?,
+            certainty: file.certainty.checked()?,
             budget,
             samples: file.samples,
             seed: file.seed,
@@ -245,7 +216,7 @@ fn outputs(names: &[String]) -> Result<Vec<Output>, Failure> {
                 all.join(", ")
             ))
         })?;
-        if outputs.contains(&output) {
+        if outputs.iter().any(|it| it.name == name) {
             return Err(Failure::usage(format!("outputs: {name:?} stands twice")));
         }
         outputs.push(output);
@@ -275,29 +246,4 @@ fn settling(motion: &Motion) -> Result<Settling, Failure> {
         longest,
         tolerance,
     })
-}
-
-fn certainty(certainty: &Certainty) -> Result<Certainty, Failure> {
-    within("certainty.starts", certainty.starts, 1..=100_000)?;
-    let sides = [
-        ("position", certainty.position),
-        ("velocity", certainty.velocity),
-    ];
-    for (name, side) in sides {
-        let rises = |[low, high]: &[f64; 2]| low.is_finite() && high.is_finite() && low < high;
-        match side {
-            None if certainty.region().is_none() && sides.iter().any(|it| it.1.is_some()) => {
-                return Err(Failure::usage(format!(
-                    "certainty.{name}: goes with the other side of the box"
-                )));
-            }
-            Some(side) if !rises(&side) => {
-                return Err(Failure::usage(format!(
-                    "certainty.{name} = {side:?}: must be finite, and rising"
-                )));
-            }
-            _ => {}
-        }
-    }
-    Ok(*certainty)
 }

@@ -2,12 +2,14 @@
 
 mod axis;
 mod blocks;
+mod certainty;
 mod column;
 mod evaluate;
 mod file;
 mod outputs;
 mod picture;
 mod plot;
+mod point_evaluation;
 mod points;
 mod read;
 mod report;

@@ -1,72 +1,122 @@
-//! What a study tells of each of its points: one list of names, units and meanings.
+//! What a study tells of each of its points: one list of names, units, meanings and values.
 
 use softstop_console::column::{Unit, Units};
+use softstop_console::columns;
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::figure::Figure;
+use softstop_dynamics::zone::free_amplitude;
+
+use super::point_evaluation::PointEvaluation;
+use OutputKind::{Cycle, Kind, Number, Z};
 
 /// A column of a study's results.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Output {
-    /// What it tells.
-    pub kind: OutputKind,
     /// Its name.
     pub name: &'static str,
     /// What it is one of.
     pub unit: Unit,
+    /// What it takes.
+    needs: Needs,
     /// What it is, in a few words.
     pub meaning: &'static str,
+    kind: OutputKind,
+}
+
+/// What an output takes.
+#[derive(Debug, Clone, Copy)]
+enum Needs {
+    /// The motion from the start.
+    Motion,
+    /// The hysteresis zone.
+    Zone,
+    /// Both.
+    MotionAndZone,
+    /// The grazing frequencies.
+    Grazing,
+    /// The machine alone.
+    Machine,
 }
 
 /// What an output tells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum OutputKind {
-    Observable(Observable),
-    Figure(Figure),
+#[derive(Debug, Clone, Copy)]
+enum OutputKind {
+    /// What the motion from the start settles on, a word.
+    Kind,
+    /// z = p/n, a word.
+    Z,
+    /// A number in SI units.
+    Number(Value),
+    /// A figure of the cycle of a motion that repeats.
+    Cycle(Figure),
 }
 
-macro_rules! outputs {
-    (@unit None) => { Unit::None };
-    (@unit $dimension:ident) => { Unit::Own(softstop::Dimension::$dimension) };
-    ($($observable:ident $name:literal [$unit:ident], $meaning:literal;)*) => {
-        /// What is observed of a point besides the figures that tasks know, too.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub(super) enum Observable { $($observable),* }
+/// Tells a number of a point in SI units.
+type Value = fn(&PointEvaluation<'_>) -> Option<f64>;
 
-        const OBSERVABLES: &[Output] = &[$(Output {
-            kind: OutputKind::Observable(Observable::$observable),
+macro_rules! outputs {
+    ($($name:literal [$unit:ident] $needs:ident, $meaning:literal => $kind:expr;)*) => {
+        &[$(Output {
             name: $name,
-            unit: outputs!(@unit $unit),
+            unit: columns!(@unit $unit),
+            needs: Needs::$needs,
             meaning: $meaning,
-        }),*];
+            kind: $kind,
+        }),*]
     };
 }
 
-outputs! {
-    Kind "kind" [None], "what the motion from the start settles on: periodic or chatter; chaos if it has not within motion.longest drive periods and small differences grow, unsettled if they do not; lost; over budget";
-    SettledWithin "settled_within" [None], "drive periods within which it settles, seen after motion.periods and twice, four times ... as many; nothing if it does not";
-    Z "z" [None], "regime z = p/n, if the motion repeats";
-    Impacts "impacts_per_period" [None], "its impacts per drive period";
-    Exponent "exponent" [None], "its larger Lyapunov exponent per drive period";
-    Trace "trace" [None], "trace of its monodromy, if it repeats";
-    Determinant "determinant" [None], "determinant of that";
-    G0 "frequency_g0" [Frequency], "grazing g0, where the hysteresis zone begins";
-    Sn "frequency_sn" [Frequency], "fold s_SN, where it ends";
-    Pd "frequency_pd" [Frequency], "flip s_PD, followed down from the z = 1 motion";
-    AtSn "velocity_sn" [Velocity], "before-impact velocity at the fold";
-}
+/// What is told of a point besides the figures that tasks know, too.
+const OBSERVABLES: &[Output] = outputs! {
+    "kind" [None] Motion, "what the motion from the start settles on: periodic or chatter; chaos if it has not within motion.longest drive periods and small differences grow, unsettled if they do not; lost; over budget"
+        => Kind;
+    "settled_within" [None] Motion, "drive periods within which it settles, seen after motion.periods and twice, four times ... as many; nothing if it does not"
+        => Number(|it| it.seen.as_ref().filter(|seen| seen.periods.is_some()).map(|seen| seen.followed as f64));
+    "z" [None] Motion, "regime z = p/n, if the motion repeats"
+        => Z;
+    "impacts_per_period" [None] Motion, "its impacts per drive period"
+        => Number(|it| Some(it.seen.as_ref()?.impacts_per_period()));
+    "exponent" [None] Motion, "its larger Lyapunov exponent per drive period"
+        => Number(|it| it.exponent());
+    "trace" [None] Motion, "trace of its monodromy, if it repeats"
+        => Number(|it| Some(it.orbit()?.monodromy.trace()));
+    "determinant" [None] Motion, "determinant of that"
+        => Number(|it| Some(it.orbit()?.monodromy.determinant()));
+    "frequency_g0" [Frequency] Grazing, "grazing g0, where the hysteresis zone begins"
+        => Number(|it| it.grazing());
+    "frequency_sn" [Frequency] Zone, "fold s_SN, where it ends"
+        => Number(|it| Some(it.fold()?.frequency));
+    "frequency_pd" [Frequency] MotionAndZone, "flip s_PD, followed down from the z = 1 motion"
+        => Number(|it| it.flip().filter(|flip| flip.is_finite()));
+    "velocity_sn" [Velocity] Zone, "before-impact velocity at the fold"
+        => Number(|it| Some(it.fold()?.point.before_impact_velocity()));
+};
 
-/// True if a study can have a figure: neither a task's formula tells it, nor zones of other machines, nor more motions than
-/// those of certainty.
-fn is_output(figure: Figure) -> bool {
-    !matches!(
-        figure,
+/// What a figure takes, and its value; none of those that a task's formula tells, that take zones of other machines, or more motions
+/// than those of certainty.
+fn figure_output(figure: Figure) -> Option<(Needs, OutputKind)> {
+    use Needs::{Grazing, Machine, Motion, MotionAndZone, Zone};
+    let number = |needs, value: Value| Some((needs, Number(value)));
+    match figure {
+        Figure::Velocity => number(Motion, |it| Some(it.seen.as_ref()?.hardest_impact())),
+        Figure::MaxPosition => number(Motion, |it| it.seen.as_ref()?.max_position(it.map()?).ok()),
+        Figure::Share => number(Zone, |it| it.share_of_own_range()),
+        Figure::FrequencyG0 => number(Grazing, |it| Some(it.frequency() - it.grazing()?)),
+        Figure::FrequencySn => number(Zone, |it| Some(it.own_range()?.1 - it.frequency())),
+        Figure::FrequencyPd => number(MotionAndZone, |it| Some(it.frequency() - it.flip()?)),
+        Figure::ClearanceG0 => number(Machine, |it| {
+            let free = free_amplitude(it.scene(), it.frequency());
+            Some(it.scene().least_clearance() - free)
+        }),
+        Figure::Certainty => number(Machine, |it| it.certainty()),
         Figure::ClearanceSn
-            | Figure::ClearancePd
-            | Figure::Integrity
-            | Figure::RunUp
-            | Figure::MissingStrips
-            | Figure::Cost
-    )
+        | Figure::ClearancePd
+        | Figure::Integrity
+        | Figure::RunUp
+        | Figure::MissingStrips
+        | Figure::Cost => None,
+        figure => Some((Motion, Cycle(figure))),
+    }
 }
 
 /// Kinds of motions, by their numbers in files of blocks.
@@ -92,12 +142,15 @@ pub(super) fn is_over_budget(number: f64) -> bool {
 impl Output {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        let figures = Figure::ALL.iter().filter(|figure| is_output(**figure));
-        let figures = figures.map(|figure| Self {
-            kind: OutputKind::Figure(*figure),
-            name: figure.name(),
-            unit: Unit::Own(figure.dimension()),
-            meaning: figure.meaning(),
+        let figures = Figure::ALL.iter().filter_map(|figure| {
+            let (needs, kind) = figure_output(*figure)?;
+            Some(Self {
+                name: figure.name(),
+                unit: Unit::Own(figure.dimension()),
+                needs,
+                meaning: figure.meaning(),
+                kind,
+            })
         });
         OBSERVABLES.iter().copied().chain(figures)
     }
@@ -109,61 +162,59 @@ impl Output {
 
     /// True if it is a word, not a number.
     pub const fn is_word(self) -> bool {
-        matches!(
-            self.kind,
-            OutputKind::Observable(Observable::Kind | Observable::Z)
-        )
+        matches!(self.kind, Kind | Z)
     }
 
     /// Numbers that it takes in files of blocks.
     pub const fn width(self) -> usize {
         match self.kind {
-            OutputKind::Observable(Observable::Z) => 2,
+            Z => 2,
             _ => 1,
         }
     }
 
     /// True if it takes the motion from the start.
     pub const fn is_of_motion(self) -> bool {
-        use Figure as F;
-        match self.kind {
-            OutputKind::Observable(it) => {
-                !matches!(it, Observable::G0 | Observable::Sn | Observable::AtSn)
-            }
-            OutputKind::Figure(figure) => !matches!(
-                figure,
-                F::Share | F::FrequencyG0 | F::FrequencySn | F::ClearanceG0 | F::Certainty
-            ),
-        }
+        matches!(self.needs, Needs::Motion | Needs::MotionAndZone)
     }
 
     /// True if it takes the hysteresis zone.
     pub const fn is_of_zone(self) -> bool {
-        use Figure as F;
-        match self.kind {
-            OutputKind::Observable(it) => {
-                matches!(it, Observable::Sn | Observable::Pd | Observable::AtSn)
-            }
-            OutputKind::Figure(figure) => {
-                matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd)
-            }
-        }
+        matches!(self.needs, Needs::Zone | Needs::MotionAndZone)
     }
 
     /// True if it takes other drive frequencies than that of the point.
     pub const fn is_of_other_frequencies(self) -> bool {
-        let is_grazing = matches!(
-            self.kind,
-            OutputKind::Observable(Observable::G0) | OutputKind::Figure(Figure::FrequencyG0)
-        );
-        is_grazing || self.is_of_zone()
+        matches!(self.needs, Needs::Grazing) || self.is_of_zone()
+    }
+
+    /// Its numbers at a point, in the machine's own units; NaN where there is nothing.
+    pub fn value(self, point: &PointEvaluation<'_>) -> [f64; 2] {
+        let value = match self.kind {
+            Kind => {
+                let motion = point.motion().filter(|_| point.is_valid);
+                Some(kind(motion.map_or(&MotionKind::Lost, |it| &it.0)))
+            }
+            _ if !point.is_valid => None,
+            Z => return point.z().unwrap_or([f64::NAN; 2]),
+            Number(number) => number(point),
+            Cycle(figure) => point.periodic().and_then(|(orbit, metrics)| {
+                let value = figure.of_motion(orbit, metrics);
+                value.filter(|it| !it.is_nan())
+            }),
+        };
+        let own = |value| match self.unit {
+            Unit::Own(dimension) => point.machine.to_own(dimension, value),
+            _ => value,
+        };
+        [value.map_or(f64::NAN, own), f64::NAN]
     }
 
     /// Its numbers at a point over the budget.
     pub fn over_budget(self) -> [f64; 2] {
         let place = KINDS.iter().position(|kind| *kind == OVER_BUDGET);
         match (self.kind, place) {
-            (OutputKind::Observable(Observable::Kind), Some(place)) => [place as f64, f64::NAN],
+            (Kind, Some(place)) => [place as f64, f64::NAN],
             _ => [OVER; 2],
         }
     }
@@ -171,10 +222,8 @@ impl Output {
     /// Its word, from its numbers in a file of blocks.
     pub fn word(self, [first, second]: [f64; 2]) -> Option<String> {
         match self.kind {
-            OutputKind::Observable(Observable::Kind) if first >= 0.0 => {
-                KINDS.get(first as usize).map(|&kind| kind.to_owned())
-            }
-            OutputKind::Observable(Observable::Z) if second >= 1.0 => {
+            Kind if first >= 0.0 => KINDS.get(first as usize).map(|&kind| kind.to_owned()),
+            Z if second >= 1.0 => {
                 let impacts = match first.is_finite() {
                     true => first.to_string(),
                     false => "∞".to_owned(),
@@ -190,7 +239,7 @@ impl Output {
 }
 
 /// The number of a kind.
-pub(super) fn kind(motion: &MotionKind) -> f64 {
+fn kind(motion: &MotionKind) -> f64 {
     let place = KINDS.iter().position(|kind| *kind == motion.json_key());
     place.map_or(f64::NAN, |place| place as f64)
 }

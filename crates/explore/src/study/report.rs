@@ -14,8 +14,9 @@ use softstop_console::table::aligned;
 use softstop_console::units;
 use softstop_dynamics::settled::Settling;
 
+use super::certainty::Certainty;
 use super::column::Column;
-use super::file::{Certainty, Study};
+use super::file::Study;
 use super::outputs::{OVER_BUDGET, is_over_budget};
 use super::values::Values;
 
