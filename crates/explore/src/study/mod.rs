@@ -15,6 +15,7 @@ mod read;
 mod report;
 mod schema;
 mod shard;
+mod shard_run;
 mod table;
 mod values;
 
@@ -30,9 +31,10 @@ use softstop_console::keep::KeepArguments;
 use softstop_console::output::Format;
 use softstop_console::record::Record;
 
-use blocks::{Blocks, ShardRun};
+use blocks::Blocks;
 use report::StudyReport;
 use shard::DONE;
+use shard_run::ShardRun;
 
 pub use file::Study;
 pub use plot::PlotArguments;
