@@ -317,8 +317,7 @@ fn shards_and_merges_survive_kills() -> Outcome {
             fs::remove_file(parts.join("study.parquet"))?;
         }
     }
-    let into = ["--output", parts.to_str().ok_or("path")?];
-    STUDY.json(&[&merge[..], &into].concat());
+    STUDY.json_into(&parts, &merge);
     assert_eq!(bytes(&parts)?, bytes(&whole)?);
     // Shards, tables and manifest, and nothing of what was killed.
     assert_eq!(fs::read_dir(&parts)?.count(), 6);

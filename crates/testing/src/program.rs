@@ -69,7 +69,7 @@ impl Program {
     #[track_caller]
     pub fn json_into(&self, folder: &Path, arguments: &[&str]) -> Value {
         let folder = folder.to_str().expect("UTF-8");
-        self.json(&[&["--output", folder], arguments].concat())
+        self.json(&[arguments, &["--output", folder]].concat())
     }
 
     /// As [`Program::refuses`], where the folder that it was to write into is not made.
@@ -80,7 +80,7 @@ impl Program {
     pub fn refuses_and_writes_nothing(&self, arguments: &[&str], words: &[&str]) {
         let folder = std::env::temp_dir().join(format!("softstop-refused-{}", std::process::id()));
         let path = folder.to_str().expect("UTF-8");
-        self.refuses(&[&["--output", path], arguments].concat(), words);
+        self.refuses(&[arguments, &["--output", path]].concat(), words);
         assert!(!folder.exists(), "{arguments:?} made its folder");
     }
 

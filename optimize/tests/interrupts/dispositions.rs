@@ -15,13 +15,13 @@ pub enum Writes {
 
 use Writes::{File, Folder, Nothing};
 
-/// All commands, and what they write. None takes long.
+/// All commands, and what they write, without a machine. None takes long.
 pub const COMMANDS: &[(&str, Writes)] = &[
     ("orbit", Nothing),
     ("motions --starts 16", Folder),
     ("continue --parameter eta --from 1.1 --to 1.2", Folder),
     ("zone", Nothing),
-    ("prove A", File),
+    ("prove", File),
     ("sweep --from 0.8 --to 1.8 --steps 100", Folder),
     ("basin --size 60", Folder),
     ("basin --along-zone 3 --size 20", Folder),
@@ -37,10 +37,10 @@ pub const COMMANDS: &[(&str, Writes)] = &[
     ("fmu", File),
     ("schema", Nothing),
     ("schema study", Nothing),
-    ("simulate SCENES/hertz.toml", Folder),
-    ("watch loaded", File),
+    ("simulate", Folder),
+    ("watch", File),
     ("stops", Folder),
-    ("fidelity B --repeats 1", Folder),
+    ("fidelity --repeats 1", Folder),
 ];
 
 /// Their lines, with the folders of scenes and studies.
