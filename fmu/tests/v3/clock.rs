@@ -4,7 +4,7 @@ use softstop_fmi3::*;
 use softstop_fmu::Options;
 
 use super::events::MACHINES;
-use super::exchange::Integrator;
+use super::integrator::Integrator;
 use super::unit::{CLOCK, Unit};
 use crate::common::ERROR;
 

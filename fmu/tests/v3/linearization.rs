@@ -7,7 +7,8 @@ use softstop_fmu::table;
 
 use super::derivatives::assert_close;
 use super::events::MACHINES;
-use super::exchange::{Integrator, RESTING};
+use super::exchange::RESTING;
+use super::integrator::Integrator;
 use super::unit::Unit;
 use crate::common::{ERROR, OK, reference};
 

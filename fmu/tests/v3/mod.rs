@@ -6,6 +6,7 @@ mod clock;
 mod derivatives;
 mod events;
 mod exchange;
+mod integrator;
 mod intermediate;
 mod linearization;
 mod state_machine;

@@ -1,5 +1,8 @@
 //! An importer of FMI 3.0 in a few lines: it calls the C functions and keeps the log.
 
+mod derivatives;
+mod stepping;
+
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 use std::sync::OnceLock;
@@ -38,23 +41,6 @@ pub struct Ending {
     pub event: bool,
     pub early: bool,
     pub time: f64,
-}
-
-/// The values that a function for derivatives gives.
-macro_rules! derivatives {
-    ($function:ident, $unit:ident, $of:ident, $by:ident, $seed:ident, $count:expr) => {{
-        let (of, by, seed) = ($of.as_ptr(), $by.as_ptr(), $seed.as_ptr());
-        let (counts, mut values) = (($of.len(), $by.len(), $seed.len()), vec![f64::NAN; $count]);
-        let (instance, place) = ($unit.instance, values.as_mut_ptr());
-        // SAFETY: arrays as long as is said.
-        let status = unsafe {
-            $function(
-                instance, of, counts.0, by, counts.1, seed, counts.2, place, $count,
-            )
-        };
-        $unit.check(status);
-        values
-    }};
 }
 
 /// An instance of the unit.
@@ -280,124 +266,6 @@ impl Unit {
             (status, value.to_bits())
         });
         read.collect()
-    }
-
-    /// Status and value of the clock of impacts.
-    pub fn try_clock(&self) -> (c_int, bool) {
-        let mut ticks = 7;
-        // SAFETY: one reference and one value.
-        let status = unsafe { fmi3GetClock(self.instance, &CLOCK, 1, &raw mut ticks) };
-        assert!(status != OK || ticks <= 1);
-        (status, ticks == 1)
-    }
-
-    pub fn ticks(&self) -> bool {
-        let (status, ticks) = self.try_clock();
-        self.check(status);
-        ticks
-    }
-
-    /// Status and ending of a step.
-    pub fn try_step(&self, point: f64, size: f64) -> (c_int, Ending) {
-        let (mut event, mut end, mut early, mut time) = (7, 7, 7, f64::NAN);
-        // SAFETY: places for the answers.
-        let status = unsafe {
-            let (event, end, early) = (&raw mut event, &raw mut end, &raw mut early);
-            fmi3DoStep(
-                self.instance,
-                point,
-                size,
-                1,
-                event,
-                end,
-                early,
-                &raw mut time,
-            )
-        };
-        let ending = Ending {
-            event: event == 1,
-            early: early == 1,
-            time,
-        };
-        (status, ending)
-    }
-
-    pub fn step(&self, point: f64, size: f64) -> Ending {
-        let (status, ending) = self.try_step(point, size);
-        self.check(status);
-        ending
-    }
-
-    pub fn enter_event_mode(&self) {
-        // SAFETY: the instance is alive.
-        self.check(unsafe { fmi3EnterEventMode(self.instance) });
-    }
-
-    pub fn leave_event_mode(&self) {
-        // SAFETY: the instance is alive.
-        self.check(unsafe { fmi3EnterStepMode(self.instance) });
-    }
-
-    /// Lets the event happen; when the next one comes.
-    pub fn update(&self) -> Option<f64> {
-        let (status, next) = self.try_update();
-        self.check(status);
-        next
-    }
-
-    pub fn try_update(&self) -> (c_int, Option<f64>) {
-        let (status, next, _) = self.try_update_states();
-        (status, next)
-    }
-
-    /// Status, time of the next event, and whether states have changed.
-    pub fn try_update_states(&self) -> (c_int, Option<f64>, bool) {
-        let (mut flags, mut time) = ([7u8; 5], f64::NAN);
-        let [a, b, c, d, defined] = flags.each_mut().map(|flag| &raw mut *flag);
-        // SAFETY: places for the answers.
-        let status =
-            unsafe { fmi3UpdateDiscreteStates(self.instance, a, b, c, d, defined, &raw mut time) };
-        assert!(status != OK || flags[..2] == [0; 2]);
-        assert!(status != OK || self.is_for_exchange || flags[2..4] == [0; 2]);
-        (status, (flags[4] == 1).then_some(time), flags[3] == 1)
-    }
-
-    /// Goes to a time in steps of one size, and handles events if there is event mode; what `see` says of each.
-    pub fn run(&self, end: f64, size: f64, mut see: impl FnMut(&Self, Ending)) {
-        let (mut point, mut number) = (0.0, 1.0);
-        while point < end {
-            let aim = (number * size).min(end);
-            let ending = self.step(point, aim - point);
-            if ending.early {
-                point = ending.time;
-            } else {
-                (point, number) = (aim, number + 1.0);
-            }
-            if ending.event {
-                self.enter_event_mode();
-                see(self, ending);
-                self.update();
-                self.leave_event_mode();
-            }
-            if ending.event || ending.early {
-                see(self, ending);
-            }
-        }
-    }
-
-    /// Derivatives of outputs along a direction.
-    pub fn directional(&self, of: &[u32], by: &[u32], seed: &[f64]) -> Vec<f64> {
-        derivatives!(fmi3GetDirectionalDerivative, self, of, by, seed, of.len())
-    }
-
-    /// Derivatives of a weighted sum of outputs.
-    pub fn adjoint(&self, of: &[u32], by: &[u32], seed: &[f64]) -> Vec<f64> {
-        self.adjoint_of(of, by, seed, by.len())
-    }
-
-    /// Derivatives of a weighted sum of outputs by knowns that have so many elements.
-    pub fn adjoint_of(&self, of: &[u32], by: &[u32], seed: &[f64], count: usize) -> Vec<f64> {
-        derivatives!(fmi3GetAdjointDerivative, self, of, by, seed, count)
     }
 }
 
