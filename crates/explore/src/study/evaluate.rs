@@ -10,7 +10,7 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::zone::hysteresis_batch;
 
 use super::file::Study;
-use super::outputs::Output;
+use super::outputs::{Need, Output};
 use super::point_evaluation::PointEvaluation;
 
 /// Points whose motions go together in the lanes: it may not depend on how many threads there are.
@@ -92,16 +92,16 @@ impl Study {
         &'a self,
         machines: &'a [Machine],
     ) -> Result<Vec<PointEvaluation<'a>>, Failure> {
-        let wanted = |is: fn(Output) -> bool| self.outputs.iter().any(|output| is(*output));
+        let wanted = |need| self.outputs.iter().any(|output| output.needs(need));
         let motions: Vec<_> = machines.iter().map(|it| (&it.scene, it.start)).collect();
-        let seen = match wanted(Output::is_of_motion) {
+        let seen = match wanted(Need::Motion) {
             true => {
                 let seen = self.settling.follow_motions(&motions, &interrupt::watch);
                 seen.ok_or(Failure::Interrupted)?
             }
             false => Vec::new(),
         };
-        let zones = match wanted(Output::is_of_zone) {
+        let zones = match wanted(Need::Zone) {
             true => {
                 let scenes = machines.iter().map(|machine| machine.scene.clone());
                 hysteresis_batch(&scenes.collect::<Vec<_>>(), &interrupt::watch)

@@ -16,7 +16,7 @@ use softstop_dynamics::settled::Settling;
 
 use super::axis::{Axis, AxisSettings};
 use super::certainty::Certainty;
-use super::outputs::Output;
+use super::outputs::{Need, Output};
 
 /// The file.
 #[derive(Debug, Deserialize)]
@@ -144,7 +144,8 @@ impl Study {
             )));
         };
         let outputs = outputs(&file.outputs)?;
-        if let Some(output) = outputs.iter().find(|it| it.is_of_other_frequencies()) {
+        let is_over_frequencies = |it: &&Output| it.needs(Need::Zone) || it.needs(Need::Grazing);
+        if let Some(output) = outputs.iter().find(is_over_frequencies) {
             refuse_without_zone(&machine).map_err(|failure| match failure {
                 Failure::Usage(what) => Failure::usage(format!("outputs: {}: {what}", output.name)),
                 failure => failure,

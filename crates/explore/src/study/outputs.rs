@@ -17,25 +17,21 @@ pub(super) struct Output {
     /// What it is one of.
     pub unit: Unit,
     /// What it takes.
-    needs: Needs,
+    needs: &'static [Need],
     /// What it is, in a few words.
     pub meaning: &'static str,
     kind: OutputKind,
 }
 
-/// What an output takes.
-#[derive(Debug, Clone, Copy)]
-enum Needs {
+/// What an output takes besides the machine itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Need {
     /// The motion from the start.
     Motion,
     /// The hysteresis zone.
     Zone,
-    /// Both.
-    MotionAndZone,
     /// The grazing frequencies.
     Grazing,
-    /// The machine alone.
-    Machine,
 }
 
 /// What an output tells.
@@ -55,11 +51,11 @@ enum OutputKind {
 type Value = fn(&PointEvaluation<'_>) -> Option<f64>;
 
 macro_rules! outputs {
-    ($($name:literal [$unit:ident] $needs:ident, $meaning:literal => $kind:expr;)*) => {
+    ($($name:literal [$unit:ident] [$($need:ident)*], $meaning:literal => $kind:expr;)*) => {
         &[$(Output {
             name: $name,
             unit: columns!(@unit $unit),
-            needs: Needs::$needs,
+            needs: &[$(Need::$need),*],
             meaning: $meaning,
             kind: $kind,
         }),*]
@@ -68,54 +64,56 @@ macro_rules! outputs {
 
 /// What is told of a point besides the figures that tasks know, too.
 const OBSERVABLES: &[Output] = outputs! {
-    "kind" [None] Motion, "what the motion from the start settles on: periodic or chatter; chaos if it has not within motion.longest drive periods and small differences grow, unsettled if they do not; lost; over budget"
+    "kind" [None] [Motion], "what the motion from the start settles on: periodic or chatter; chaos if it has not within motion.longest drive periods and small differences grow, unsettled if they do not; lost; over budget"
         => Kind;
-    "settled_within" [None] Motion, "drive periods within which it settles, seen after motion.periods and twice, four times ... as many; nothing if it does not"
+    "settled_within" [None] [Motion], "drive periods within which it settles, seen after motion.periods and twice, four times ... as many; nothing if it does not"
         => Number(|it| it.seen.as_ref().filter(|seen| seen.periods.is_some()).map(|seen| seen.followed as f64));
-    "z" [None] Motion, "regime z = p/n, if the motion repeats"
+    "z" [None] [Motion], "regime z = p/n, if the motion repeats"
         => Z;
-    "impacts_per_period" [None] Motion, "its impacts per drive period"
+    "impacts_per_period" [None] [Motion], "its impacts per drive period"
         => Number(|it| Some(it.seen.as_ref()?.impacts_per_period()));
-    "exponent" [None] Motion, "its larger Lyapunov exponent per drive period"
+    "exponent" [None] [Motion], "its larger Lyapunov exponent per drive period"
         => Number(|it| it.exponent());
-    "trace" [None] Motion, "trace of its monodromy, if it repeats"
+    "trace" [None] [Motion], "trace of its monodromy, if it repeats"
         => Number(|it| Some(it.orbit()?.monodromy.trace()));
-    "determinant" [None] Motion, "determinant of that"
+    "determinant" [None] [Motion], "determinant of that"
         => Number(|it| Some(it.orbit()?.monodromy.determinant()));
-    "frequency_g0" [Frequency] Grazing, "grazing g0, where the hysteresis zone begins"
+    "frequency_g0" [Frequency] [Grazing], "grazing g0, where the hysteresis zone begins"
         => Number(|it| it.grazing());
-    "frequency_sn" [Frequency] Zone, "fold s_SN, where it ends"
+    "frequency_sn" [Frequency] [Zone], "fold s_SN, where it ends"
         => Number(|it| Some(it.fold()?.frequency));
-    "frequency_pd" [Frequency] MotionAndZone, "flip s_PD, followed down from the z = 1 motion"
+    "frequency_pd" [Frequency] [Motion Zone], "flip s_PD, followed down from the z = 1 motion"
         => Number(|it| it.flip().filter(|flip| flip.is_finite()));
-    "velocity_sn" [Velocity] Zone, "before-impact velocity at the fold"
+    "velocity_sn" [Velocity] [Zone], "before-impact velocity at the fold"
         => Number(|it| Some(it.fold()?.point.before_impact_velocity()));
 };
 
 /// What a figure takes, and its value; none of those that a task's formula tells, that take zones of other machines, or more motions
 /// than those of certainty.
-fn figure_output(figure: Figure) -> Option<(Needs, OutputKind)> {
-    use Needs::{Grazing, Machine, Motion, MotionAndZone, Zone};
-    let number = |needs, value: Value| Some((needs, Number(value)));
+fn figure_output(figure: Figure) -> Option<(&'static [Need], OutputKind)> {
+    use Need::{Grazing, Motion, Zone};
+    let number = |needs: &'static [Need], value: Value| Some((needs, Number(value)));
     match figure {
-        Figure::Velocity => number(Motion, |it| Some(it.seen.as_ref()?.hardest_impact())),
-        Figure::MaxPosition => number(Motion, |it| it.seen.as_ref()?.max_position(it.map()?).ok()),
-        Figure::Share => number(Zone, |it| it.share_of_own_range()),
-        Figure::FrequencyG0 => number(Grazing, |it| Some(it.frequency() - it.grazing()?)),
-        Figure::FrequencySn => number(Zone, |it| Some(it.own_range()?.1 - it.frequency())),
-        Figure::FrequencyPd => number(MotionAndZone, |it| Some(it.frequency() - it.flip()?)),
-        Figure::ClearanceG0 => number(Machine, |it| {
+        Figure::Velocity => number(&[Motion], |it| Some(it.seen.as_ref()?.hardest_impact())),
+        Figure::MaxPosition => number(&[Motion], |it| {
+            it.seen.as_ref()?.max_position(it.map()?).ok()
+        }),
+        Figure::Share => number(&[Zone], |it| it.share_of_own_range()),
+        Figure::FrequencyG0 => number(&[Grazing], |it| Some(it.frequency() - it.grazing()?)),
+        Figure::FrequencySn => number(&[Zone], |it| Some(it.own_range()?.1 - it.frequency())),
+        Figure::FrequencyPd => number(&[Motion, Zone], |it| Some(it.frequency() - it.flip()?)),
+        Figure::ClearanceG0 => number(&[], |it| {
             let free = free_amplitude(it.scene(), it.frequency());
             Some(it.scene().least_clearance() - free)
         }),
-        Figure::Certainty => number(Machine, |it| it.certainty()),
+        Figure::Certainty => number(&[], |it| it.certainty()),
         Figure::ClearanceSn
         | Figure::ClearancePd
         | Figure::Integrity
         | Figure::RunUp
         | Figure::MissingStrips
         | Figure::Cost => None,
-        figure => Some((Motion, Cycle(figure))),
+        figure => Some((&[Motion], Cycle(figure))),
     }
 }
 
@@ -173,19 +171,9 @@ impl Output {
         }
     }
 
-    /// True if it takes the motion from the start.
-    pub const fn is_of_motion(self) -> bool {
-        matches!(self.needs, Needs::Motion | Needs::MotionAndZone)
-    }
-
-    /// True if it takes the hysteresis zone.
-    pub const fn is_of_zone(self) -> bool {
-        matches!(self.needs, Needs::Zone | Needs::MotionAndZone)
-    }
-
-    /// True if it takes other drive frequencies than that of the point.
-    pub const fn is_of_other_frequencies(self) -> bool {
-        matches!(self.needs, Needs::Grazing) || self.is_of_zone()
+    /// True if it takes this.
+    pub fn needs(self, need: Need) -> bool {
+        self.needs.contains(&need)
     }
 
     /// Its numbers at a point, in the machine's own units; NaN where there is nothing.
