@@ -203,6 +203,22 @@ fn a_box_is_searched_across_its_axes() -> Outcome {
     Ok(())
 }
 
+/// Where a flip goes, a zone is there at once, and its designs pass in a strip beside that border, a thousandth of the range wide: it
+/// is found.
+#[test]
+fn a_strip_beside_the_border_of_the_zones_is_found() -> Outcome {
+    let clearance = Axis::new(Parameter::Clearance, Interval::new(2.0, 22.0));
+    let mut machine = Machine::from_toml(include_str!("../../docs/scenes/loaded.toml"))?;
+    machine.set(Parameter::Damping, 0.075);
+    let problem = Problem {
+        machine,
+        ..problem(vec![clearance], 0.7)
+    };
+    let best = solve(&problem)?.design;
+    assert!(best.value > 4.05, "{}", best.value);
+    Ok(())
+}
+
 /// The value of a catalogue with the best motion that passes its trials need not be that with the best motion.
 #[test]
 fn each_value_of_a_catalogue_is_looked_at() -> Outcome {

@@ -54,6 +54,7 @@ pub mod trial;
 mod trial_search;
 mod within;
 mod without_effect;
+mod zone_border;
 mod zoned;
 
 use std::slice;
@@ -218,6 +219,15 @@ impl Problem {
 
     /// The best frequencies at many points, with zones of less accuracy: on the way of a search.
     fn at_batch(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
+        self.on_zones(points, line_search::best)
+    }
+
+    /// What is computed of the zones of the machines at many points, with their cases.
+    fn on_zones<T: Send + Sync>(
+        &self,
+        points: &[Vec<f64>],
+        compute: impl Fn(&Zoned<'_>) -> Result<T, Infeasible> + Sync,
+    ) -> Vec<Result<T, Infeasible>> {
         let cases = self.in_cases();
         let own = self.zoned(points).into_iter();
         let others = cases.iter().map(|case| case.zoned(points).into_iter());
@@ -228,7 +238,7 @@ impl Problem {
         });
         let all: Vec<Result<Zoned, Infeasible>> = all.collect();
         parallel::map(&all, |zoned| match zoned {
-            Ok(zoned) => line_search::best(zoned),
+            Ok(zoned) => compute(zoned),
             Err(lack) => Err(lack.clone()),
         })
     }

@@ -1,6 +1,6 @@
 //! The search for the best design that passes its trials. They have no derivatives and count motions, so that what is sought
-//! with them is a search among zones: a lattice of them, then those around the best (`direct_search`). Of each zone only places that
-//! are better than the best so far are tried.
+//! with them is a search among zones: a lattice of them and the border of machines that have none, then those around the best
+//! (`direct_search`). Of each zone only places that are better than the best so far are tried.
 
 use std::cell::RefCell;
 
@@ -91,16 +91,16 @@ impl<'a> Trials<'a> {
         self.problem.score(design)
     }
 
-    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice, those
-    /// beside the design and those of other choices from catalogues, then by a direct search and further choices in turn.
+    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice, those at
+    /// the border between its points that have none and others, those beside the design and those of other choices from catalogues,
+    /// then by a direct search and further choices in turn.
     pub(super) fn best(&self, from: &Candidate) -> Option<Candidate> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
-        let lattice = lattice(coordinates.axes().len());
-        let lattice = lattice.iter().map(|at| coordinates.unit(at));
-        let beside = BESIDE
-            .into_iter()
-            .flat_map(|step| coordinates.around(step, 0));
-        let zones: Vec<_> = lattice.chain(beside).collect();
+        let (lattice, step) = lattice(coordinates.axes().len());
+        let mut zones: Vec<_> = lattice.iter().map(|at| coordinates.unit(at)).collect();
+        zones.extend(self.problem.border_between(&zones, 1.1 * step));
+        let beside = BESIDE.into_iter();
+        zones.extend(beside.flat_map(|step| coordinates.around(step, 0)));
         let first = self.first(from);
         let best = self.best_of(&zones, first.as_ref()).or(first);
         let others = self.best_of(&self.other_choices(from), None);
@@ -261,11 +261,11 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Points of a lattice over the cube, each in the middle of an equal part.
-fn lattice(dimensions: usize) -> Vec<Vec<f64>> {
+/// Points of a lattice over the cube, each in the middle of an equal part, and the distance of neighbours.
+fn lattice(dimensions: usize) -> (Vec<Vec<f64>>, f64) {
     let edge = (LATTICE as f64).powf(1.0 / dimensions.max(1) as f64) as usize;
     let count = edge.checked_pow(dimensions as u32).unwrap_or(0);
     let middle = |digit: usize| (digit as f64 + 0.5) / edge as f64;
     let point = |index| digits(index, edge, dimensions).map(middle).collect();
-    (0..count).map(point).collect()
+    ((0..count).map(point).collect(), 1.0 / edge as f64)
 }
