@@ -313,7 +313,7 @@ impl Problem {
     }
 
     /// The margin M and what a motion has of it that may end at a fold within the zone; none of other motions.
-    pub(super) fn share_of_own_range(&self, motion: &Judged<'_>) -> Option<Met> {
+    pub(crate) fn share_of_own_range(&self, motion: &Judged<'_>) -> Option<Met> {
         let share = motion.zone.has_inner_folds().then(|| self.share(motion));
         share.flatten()
     }

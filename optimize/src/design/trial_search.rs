@@ -182,7 +182,10 @@ impl<'a> Trials<'a> {
     /// A direct search from a design.
     fn improve_around(&self, best: Candidate) -> Candidate {
         let better = |units: &[Vec<f64>], best: &Candidate| {
-            let better = self.best_of(units, Some(best))?;
+            let border = self.problem.border_along(&best.unit, units);
+            let better = self
+                .best_of(&border, Some(best))
+                .or_else(|| self.best_of(units, Some(best)))?;
             let least = (1.0 + COUNTED_GAIN) * self.score(&best.design);
             let gains = self.score(&better.design) > least;
             Some((better, gains))
