@@ -69,10 +69,6 @@ fn limit(problem: &Problem, design: &Design, limit: &Limit) -> Option<NamedLimit
     Some(match limit {
         Limit::Axis(parameter, end) => at_end(*parameter, *end),
         Limit::Frequency(end) => at_end(Parameter::Frequency, *end),
-        Limit::Margin(_) | Limit::Required(Figure::Share, _) if design.zone.has_inner_folds() => {
-            let share = problem.share_of_own_range(&design.judged().ok()?)?;
-            (share.value == problem.margin).then(|| at_margin("the folds beside the motion"))?
-        }
         Limit::Margin(end) => at_margin(&side(*end)),
         Limit::Required(Figure::Share, _) => match design.place < 0.5 {
             true => at_margin(&side(End::Lower)),

@@ -52,21 +52,6 @@ pub(crate) fn sentences(design: &Design) -> String {
     )
 }
 
-/// Warns of a motion that ends at a fold within the zone, where the machine jumps to another motion.
-pub(crate) fn inner_fold_warning(design: &Design) -> Option<String> {
-    let zone = &design.zone;
-    let (low, high) = zone.range_of(&design.orbit).ok()?;
-    let ends_within = zone.low.frequency < low || high < zone.high.frequency;
-    let own = |frequency| Six.format(design.own_frequency(frequency));
-    ends_within.then(|| {
-        format!(
-            "the zone holds more than one motion: that of the design goes on from {} to {} only, and margins are those from there",
-            own(low),
-            own(high)
-        )
-    })
-}
-
 /// Width of a zone, as a share of its frequency, below which hardly a drive keeps within it.
 const NARROW: f64 = 1e-3;
 

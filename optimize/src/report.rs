@@ -142,10 +142,7 @@ impl OptimizeReport {
             comparison: comparison(problem, design, references),
             limits,
             without_effect: idle.collect(),
-            warnings: [placed::warning(design), placed::inner_fold_warning(design)]
-                .into_iter()
-                .flatten()
-                .collect(),
+            warnings: placed::warning(design).into_iter().collect(),
             requirements: met.collect(),
             cases: cases::records(problem, design, study),
             rivals: rivals.collect(),

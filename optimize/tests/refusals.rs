@@ -132,11 +132,13 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
     // These take a start.
     let starts = ["simulate", "watch", "explore", "fidelity", "fmu"];
     let explore = ("explore".to_owned(), Writes::File);
+    let mut met = 0;
     for (command, writes) in dispositions::lines().chain([explore]) {
         let name = words(&command)[0];
         if !SOFTSTOP.text(&[name, "--help"]).contains("[MACHINE]") {
             continue;
         }
+        met += 1;
         let output = match writes {
             Writes::Nothing => String::new(),
             _ => format!("--output {}", out.display()),
@@ -146,6 +148,7 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
         }
     }
     assert!(!out.exists());
+    assert!(met >= 13, "{met} commands take a machine");
     Ok(())
 }
 

@@ -65,7 +65,7 @@ impl TaylorStep {
             return reach;
         }
         let (depth, velocity) = (&self.depth, &self.velocity_series());
-        let left_out = first_omitted_term(flow, from);
+        let left_out = omitted_term_bound(flow, from);
         let order = (DEGREE + 1) as i32;
         reach
             .min(first_span(depth))
@@ -182,7 +182,7 @@ impl TaylorStep {
 
 /// A bound on the first coefficient of the position that is left out, as far as the curved part of the force
 /// brings it about.
-fn first_omitted_term(flow: &LinearLaw, from: &Departure) -> f64 {
+fn omitted_term_bound(flow: &LinearLaw, from: &Departure) -> f64 {
     let rate = flow.modes.fastest_rate();
     let answer = |k: usize| (DEGREE - k) as f64 * rate.powi((DEGREE - 1 - k) as i32);
     let derivatives = from.push.derivatives().iter().enumerate().skip(2);

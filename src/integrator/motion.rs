@@ -274,7 +274,8 @@ impl Motion {
         }
     }
 
-    /// Begins an arc: sets its mode and its course (moving, held or chattering) and forgets the next event; between two steps `finer` says more sharply than the departure where the mass is.
+    /// Begins an arc: sets its mode and its course (moving, held or chattering) and forgets the next event; between two steps
+    /// `finer` says more sharply than the departure where the mass is.
     pub(super) fn begin_course(
         &mut self,
         departure: Departure,

@@ -158,7 +158,7 @@ impl Walk {
     /// Push of the drive per mass in m/s^2 at the last crossing.
     fn push(&self) -> f64 {
         let drive = self.scene.excitation;
-        let angle = drive.frequency * self.time + drive.phase;
+        let angle = drive.frequency * self.time + drive.reduced_phase();
         drive.amplitude / self.scene.mass * angle.cos()
     }
 

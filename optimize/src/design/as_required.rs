@@ -9,7 +9,7 @@ use super::{Design, Infeasible};
 /// A design with the value of what is sought, if it is as required.
 pub(super) fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> {
     let motion = design.judged().map_err(Infeasible::unknown)?;
-    let met = problem.met_beside_window(&motion);
+    let met = problem.met(&motion);
     let gap = violation(&met);
     if gap != 0.0 {
         return Err(Infeasible::new(gap, conflict(motion.machine, &met)));

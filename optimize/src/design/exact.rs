@@ -126,7 +126,6 @@ impl<'a> Linearization<'a> {
             both.map(|(moved, own)| own + moved).collect::<Vec<f64>>()
         };
         match figure {
-            Figure::FrequencySn | Figure::Share if motion.zone.has_inner_folds() => None,
             Figure::FrequencyG0 => {
                 let border = Border::at_g0(&motion.orbit.scene, true, parameters);
                 Some(above(&border.ok()?))

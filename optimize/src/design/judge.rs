@@ -59,11 +59,8 @@ impl<'a> Judged<'a> {
         }
         let frequency = self.orbit.scene.excitation.frequency;
         match figure {
-            Figure::Share => self.share_from_ends(frequency),
+            Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
-            Figure::FrequencySn | Figure::ClearanceSn if self.zone.has_inner_folds() => {
-                self.below_own_fold(figure, frequency)
-            }
             Figure::FrequencySn | Figure::ClearanceSn
                 if !self.zone.high.is_critical(TestFunction::Fold) =>
             {
@@ -88,27 +85,6 @@ impl<'a> Judged<'a> {
                 self.along(Parameter::Clearance, Direction::Down, TestFunction::Flip)
             }
             _ => f64::NAN,
-        }
-    }
-
-    /// Distance from both ends of the zone as a share of it; of the own range of a motion that ends at a fold within the zone.
-    fn share_from_ends(&self, frequency: f64) -> f64 {
-        if !self.zone.has_inner_folds() {
-            return self.place.min(1.0 - self.place);
-        }
-        let share =
-            |(low, high): (f64, f64)| (frequency - low).min(high - frequency) / (high - low);
-        self.zone.range_of(self.orbit).map_or(f64::NAN, share)
-    }
-
-    /// Distance to the fold of a motion that may end within the zone: in rad/s, or along the clearance in m.
-    fn below_own_fold(&self, figure: Figure, frequency: f64) -> f64 {
-        match figure {
-            Figure::FrequencySn => {
-                let range = self.zone.range_of(self.orbit);
-                range.map_or(f64::NAN, |(_, high)| high - frequency)
-            }
-            _ => self.along(Parameter::Clearance, Direction::Up, TestFunction::Fold),
         }
     }
 
@@ -143,7 +119,9 @@ impl<'a> Judged<'a> {
             scene.clearance = clearance;
             let scenes = slice::from_ref(&scene);
             let zone = find_zones(self.zone.kind, scenes, &interrupt::watch).remove(0);
-            zone.map_or(-frequency, |zone| zone.high.frequency - frequency)
+            zone.map_or(-frequency, |zone| {
+                zone.range_like(self.zone).high.frequency - frequency
+            })
         };
         let (mut low, mut high) = ((from, self.zone.high.frequency - frequency), None);
         let mut step = WIDER * from;
@@ -303,19 +281,6 @@ impl Problem {
             ..Met::of(*requirement)
         });
         all.collect()
-    }
-
-    /// The requirements that one motion tells, and the margin M where the window of places in the zone leaves it out.
-    pub(super) fn met_beside_window(&self, motion: &Judged<'_>) -> Vec<Met> {
-        let mut all = self.met(motion);
-        all.extend(self.share_of_own_range(motion));
-        all
-    }
-
-    /// The margin M and what a motion has of it that may end at a fold within the zone; none of other motions.
-    pub(crate) fn share_of_own_range(&self, motion: &Judged<'_>) -> Option<Met> {
-        let share = motion.zone.has_inner_folds().then(|| self.share(motion));
-        share.flatten()
     }
 
     /// The margin M and what the motion has of it; none if none is asked for.

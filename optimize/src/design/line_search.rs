@@ -8,6 +8,7 @@ use softstop_dynamics::BranchPoint;
 
 use super::as_required::as_required;
 use super::coordinates::keep_best;
+use super::problem::Problem;
 use super::space::Interval;
 use super::zoned::Zoned;
 use super::{DISTANT, Design, Infeasible};
@@ -26,6 +27,36 @@ const TOLERANCE: f64 = 1e-8;
 /// # Errors
 /// [`Infeasible`] if none of the motions looked at is found, stable and as required.
 pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
+    let mut ranges = zoned.ranges();
+    if let [_, _, ..] = ranges[..] {
+        let (open, closed): (Vec<_>, _) = ranges.into_iter().partition(|it| it.window().is_ok());
+        ranges = if open.is_empty() { closed } else { open };
+    }
+    let found = ranges.iter().map(best_along);
+    let better = |one, other| better_of(zoned.problem, one, other);
+    found
+        .reduce(better)
+        .unwrap_or_else(|| Err(Infeasible::unknown("")))
+}
+
+/// The better of what two ranges have: the higher score, or what lacks less.
+fn better_of(
+    problem: &Problem,
+    one: Result<Design, Infeasible>,
+    other: Result<Design, Infeasible>,
+) -> Result<Design, Infeasible> {
+    match (one, other) {
+        (Ok(one), Ok(other)) => match problem.score(&other) > problem.score(&one) {
+            true => Ok(other),
+            false => Ok(one),
+        },
+        (Ok(one), Err(_)) | (Err(_), Ok(one)) => Ok(one),
+        (Err(one), Err(other)) => Err(other.nearer(Some(one))),
+    }
+}
+
+/// The best motion along one range of a zone.
+fn best_along(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
     let window = zoned.window()?;
     let line = Line {
         zoned,
@@ -80,38 +111,31 @@ impl Line<'_> {
         }
     }
 
-    /// The best score of the designs at a place, and that design; where only the velocity counts, without it, since its orbit
-    /// would take a quarter more.
+    /// The score of the design at a place, and the design; where only the velocity counts, without it, since its orbit would take
+    /// a quarter more.
     fn score_at(&self, place: f64) -> Result<(f64, Option<Design>), Infeasible> {
         let problem = self.zoned.problem;
-        if problem.is_plain() {
-            let point = self.zoned.zone.point_at(place);
-            let point = stable_motion(point.map_err(Infeasible::unknown)?, place)?;
-            return Ok((point.before_impact_velocity(), None));
+        let point = self.point_at(place)?;
+        match problem.is_plain() {
+            true => Ok((point.before_impact_velocity(), None)),
+            false => {
+                let design = self.design_at(place, &point)?;
+                Ok((problem.score(&design), Some(design)))
+            }
         }
-        let design = self.best_at(place)?;
-        Ok((problem.score(&design), Some(design)))
     }
 
-    /// The best design at a place: of one of several motions, where the branch of the zone folds back.
-    fn best_at(&self, place: f64) -> Result<Design, Infeasible> {
-        let points = self.zoned.zone.points_at(place);
-        let points = points.map_err(Infeasible::unknown)?.into_iter();
-        let designs = points.map(|point| self.design_at(place, &stable_motion(point, place)?));
-        let better = |one: Result<Design, Infeasible>, other| match (one, other) {
-            (Ok(one), Ok(other)) => {
-                let score = |design: &Design| self.zoned.problem.score(design);
-                Ok(if score(&other) > score(&one) {
-                    other
-                } else {
-                    one
-                })
-            }
-            (Ok(one), Err(_)) | (Err(_), Ok(one)) => Ok(one),
-            (Err(one), Err(other)) => Err(one.nearer(Some(other))),
-        };
-        let lost = || Err(Infeasible::unknown("the z = 1 motion is lost there"));
-        designs.reduce(better).unwrap_or_else(lost)
+    /// The stable motion at a place.
+    fn point_at(&self, place: f64) -> Result<BranchPoint, Infeasible> {
+        let point = self.zoned.zone.point_at(place);
+        let point = point.map_err(Infeasible::unknown)?;
+        // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
+        let is_stable = point.is_stable() || place >= 1.0;
+        if !is_stable || !point.before_impact_velocity().is_finite() {
+            let reason = "the z = 1 motion is not stable there";
+            return Err(Infeasible::new(instability(&point), reason));
+        }
+        Ok(point)
     }
 
     /// The design at a place with this motion, if it is as required in all cases.
@@ -167,20 +191,10 @@ impl Line<'_> {
     fn result(&self) -> Result<Design, Infeasible> {
         match self.best.take() {
             Some((.., Some(design))) => Ok(design),
-            Some((_, place, None)) => self.best_at(place),
+            Some((_, place, None)) => self.design_at(place, &self.point_at(place)?),
             None => Err(self.lack.take().unwrap_or_else(|| Infeasible::unknown(""))),
         }
     }
-}
-
-/// A motion at a place, if it is stable; at the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
-fn stable_motion(point: BranchPoint, place: f64) -> Result<BranchPoint, Infeasible> {
-    let is_stable = point.is_stable() || place >= 1.0;
-    if !is_stable || !point.before_impact_velocity().is_finite() {
-        let reason = "the z = 1 motion is not stable there";
-        return Err(Infeasible::new(instability(&point), reason));
-    }
-    Ok(point)
 }
 
 impl CostFunction for &Line<'_> {

@@ -180,9 +180,7 @@ fn of_point(
     };
     let score = scores.least().value;
     let window = problem.window_within(&here.zone, edges.as_ref());
-    let share = problem.share_of_own_range(&motion);
     let is_good = is_met
-        && share.is_none_or(|share| share.is_met())
         && is_kept
         && window.is_ok_and(|it| it.contains(here.place))
         && score > 0.0

@@ -274,8 +274,7 @@ impl Problem {
                 problem, design, ..
             } = it;
             let motion = design.judged();
-            let met = motion.map(|motion| problem.met_beside_window(&motion));
-            let is_met = met.is_ok_and(|met| met.iter().all(Met::is_met));
+            let is_met = motion.is_ok_and(|motion| problem.met(&motion).iter().all(Met::is_met));
             let window = problem.window(&design.machine, &design.zone);
             is_met && window.is_ok_and(|it| it.contains(design.place))
         })
@@ -294,13 +293,8 @@ impl Problem {
     ) -> Result<Interval, Infeasible> {
         let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
         let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
-        // A motion that ends at a fold within the zone is judged by its own range.
-        let margin = match zone.has_inner_folds() {
-            true => 0.0,
-            false => self.margin,
-        };
-        let mut low = margin.max(zone.place_of(si(self.frequency.low)));
-        let mut high = (1.0 - margin).min(zone.place_of(si(self.frequency.high)));
+        let mut low = self.margin.max(zone.place_of(si(self.frequency.low)));
+        let mut high = (1.0 - self.margin).min(zone.place_of(si(self.frequency.high)));
         if let Some(tolerated) = tolerated {
             if let Some(edge) = &tolerated.low {
                 low = low.max(zone.place_of(edge.frequency));

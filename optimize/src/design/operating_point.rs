@@ -60,18 +60,11 @@ impl Problem {
 }
 
 impl Design {
-    /// The stable motions at a place of a machine's zone, without cases and without the value of what is sought.
-    pub(super) fn on_zone(
-        machine: &Machine,
-        zone: &Zone,
-        place: f64,
-    ) -> impl Iterator<Item = Self> {
-        let points = zone.points_at(place).unwrap_or_default().into_iter();
-        points.filter_map(move |point| {
-            let orbit = zone.orbit_of(&point).ok()?;
-            let is_stable = orbit.is_stable() || place >= 1.0;
-            is_stable.then(|| Self::of_orbit(machine.clone(), (zone, place), orbit))
-        })
+    /// The stable motion at a place of a machine's zone, without cases and without the value of what is sought.
+    pub(super) fn on_zone(machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
+        let orbit = zone.orbit_of(&zone.point_at(place).ok()?).ok()?;
+        let is_stable = orbit.is_stable() || place >= 1.0;
+        is_stable.then(|| Self::of_orbit(machine, (zone, place), orbit))
     }
 
     /// A motion at a place of a machine's zone, without cases and without the value of what is sought.

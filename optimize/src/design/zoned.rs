@@ -10,7 +10,8 @@ use super::problem::Problem;
 use super::space::Interval;
 use super::{Design, Infeasible, distance_from_zones, finite_or};
 
-/// A machine with its zone.
+/// A machine with its zone, or with one range of it.
+#[derive(Clone)]
 pub(super) struct Zoned<'a> {
     pub problem: &'a Problem,
     pub machine: Machine,
@@ -20,7 +21,8 @@ pub(super) struct Zoned<'a> {
 }
 
 impl Design {
-    /// The motion at a point of the search, without the values of what is sought; none if there is no stable one.
+    /// The motion at a point of the search, the best of those of several ranges of the zone, without the values of what is sought;
+    /// none if there is no stable one.
     pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
         let cases = problem.in_cases();
         let zoned = Zoned::find(problem, &cases, &problem.axis_values(at.unit))?;
@@ -29,7 +31,16 @@ impl Design {
             None => f64::NAN,
         };
         let place = at.place.filter(|_| !problem.has_given_frequency());
-        zoned.at(place.unwrap_or_else(|| zoned.place_of(given)))
+        let grade = |design: &Self| match as_required(problem, design.clone()) {
+            Ok(design) => problem.score(&design),
+            Err(lack) => -lack.gap,
+        };
+        let ranges = zoned.ranges().into_iter();
+        let found = ranges.filter_map(|it| it.at(place.unwrap_or_else(|| it.place_of(given))));
+        found.reduce(|one, other| match grade(&other) > grade(&one) {
+            true => other,
+            false => one,
+        })
     }
 }
 
@@ -62,6 +73,24 @@ impl<'a> Zoned<'a> {
         own.with_cases(cases.collect::<Option<_>>()?).into()
     }
 
+    /// The machine with each range of its zone, and in each case with the range that is most like it.
+    pub fn ranges(&self) -> Vec<Self> {
+        let on = |zone: Zone| {
+            let cases = self.cases.iter();
+            let cases = cases.map(|case| Self {
+                zone: case.zone.range_like(&zone),
+                ..case.clone()
+            });
+            Self {
+                cases: cases.collect(),
+                machine: self.machine.clone(),
+                problem: self.problem,
+                zone,
+            }
+        };
+        self.zone.ranges().into_iter().map(on).collect()
+    }
+
     pub fn with_cases(self, cases: Vec<Self>) -> Self {
         Self { cases, ..self }
     }
@@ -75,18 +104,9 @@ impl<'a> Zoned<'a> {
         })
     }
 
-    /// The motion at a place, the best of several, and that of each case at the same frequency or its own; none if one is not
-    /// stable.
+    /// The motion at a place, and that of each case at the same frequency or its own; none if one is not stable.
     pub fn at(&self, place: f64) -> Option<Design> {
-        let grade = |design: &Design| match as_required(self.problem, design.clone()) {
-            Ok(design) => self.problem.score(&design),
-            Err(lack) => -lack.gap,
-        };
-        let all = Design::on_zone(&self.machine, &self.zone, place);
-        let own = all.reduce(|one, other| match grade(&other) > grade(&one) {
-            true => other,
-            false => one,
-        })?;
+        let own = Design::on_zone(self.machine.clone(), &self.zone, place)?;
         let frequency = own.drive_frequency();
         let cases = self.cases.iter();
         let cases = cases.map(|case| case.at(case.place_of(frequency)));

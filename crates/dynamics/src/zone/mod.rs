@@ -9,8 +9,8 @@ pub(crate) mod followed_end;
 mod frequency_family;
 mod hysteresis_zone;
 mod impactless_motion;
-mod inner_folds;
 mod loss_of_stability;
+mod own_ranges;
 mod single_impact_zone;
 mod stable_range;
 mod stable_ranges;
@@ -28,10 +28,9 @@ pub use single_impact_zone::single_impact;
 pub use stable_range::StableRange;
 pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 
-use inner_folds::is_harder;
-
 use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};
+use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene};
 
 /// The kind of a zone: which motions it holds.
@@ -115,33 +114,37 @@ impl Zone {
     /// The z = 1 motion with the hardest impact at a place s of the zone, on the stable side of its folds.
     ///
     /// # Errors
-    /// As [`Zone::points_at`]; [`ZoneError::Orbit`] if there is none.
+    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
     pub fn point_at(&self, share: f64) -> Result<BranchPoint, ZoneError> {
-        let lost = || OrbitError::NotFound {
-            frequency: self.frequency_at(share),
-            clearance: self.scene.clearance,
-        };
-        let mut all = self.points_at(share)?.into_iter();
-        let first = all.next().ok_or_else(lost)?;
-        let harder = |known: BranchPoint, it: BranchPoint| match is_harder(&it, &known) {
-            true => it,
-            false => known,
-        };
-        Ok(all.fold(first, harder))
-    }
-
-    /// All z = 1 motions at a place s of the zone on the stable sides of its folds: more than one where the branch folds back.
-    ///
-    /// # Errors
-    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if one is lost.
-    pub fn points_at(&self, share: f64) -> Result<Vec<BranchPoint>, ZoneError> {
         if !(0.0..=1.0).contains(&share) {
             return Err(ZoneError::Outside { share });
         }
+        let family = Frequencies(&self.scene);
+        let continuation = Continuation::new(&family, 1);
         let target = self.frequency_at(share);
-        let sides = self.stable_sides();
-        let points = sides.filter_map(|side| self.point_on(side, target).transpose());
-        Ok(points.collect::<Result<_, _>>()?)
+        let mut best: Option<BranchPoint> = None;
+        for pair in self.branch.windows(2) {
+            let (from, to) = (&pair[0], &pair[1]);
+            if from.fold_test() < -SAME || to.fold_test() < -SAME {
+                continue;
+            }
+            let point = match (from.parameter - target, to.parameter - target) {
+                (0.0, _) => from.clone(),
+                (_, 0.0) => to.clone(),
+                (a, b) if a * b < 0.0 => continuation.point_between(from, to, target)?,
+                _ => continue,
+            };
+            let stronger =
+                |best: &BranchPoint| point.before_impact_velocity() > best.before_impact_velocity();
+            if best.as_ref().is_none_or(stronger) {
+                best = Some(point);
+            }
+        }
+        let lost = OrbitError::NotFound {
+            frequency: target,
+            clearance: self.scene.clearance,
+        };
+        Ok(best.ok_or(lost)?)
     }
 }
 

@@ -118,29 +118,25 @@ impl PointEvaluation<'_> {
 
     /// The frequency of s_PD in rad/s, minus infinity if there is none; nothing without a z = 1 motion to follow.
     pub fn flip(&self) -> Option<f64> {
-        self.seen.as_ref()?;
-        let orbit = self.single_impact_orbit()?;
-        let flip = loss_of_stability(&orbit, Direction::Down, TestFunction::Flip).ok()?;
+        let is_one = self.seen.as_ref()?.regime() == Some(Regime::ONE);
+        let in_zone = || {
+            let (zone, place) = (self.zone.as_ref()?, self.place()?);
+            zone.orbit_at(place).ok()
+        };
+        let orbit = match is_one {
+            true => self.orbit().cloned(),
+            false => in_zone(),
+        };
+        let flip = loss_of_stability(&orbit?, Direction::Down, TestFunction::Flip).ok()?;
         Some(flip.map_or(f64::NEG_INFINITY, |flip| flip.parameter))
     }
 
-    /// The motion if it is one of z = 1, otherwise the hardest of the zone here.
-    fn single_impact_orbit(&self) -> Option<Orbit> {
-        let is_one = self.seen.as_ref().and_then(SettledMotion::regime) == Some(Regime::ONE);
-        match is_one {
-            true => self.orbit().cloned(),
-            false => self.zone.as_ref()?.orbit_at(self.place()?).ok(),
-        }
-    }
-
-    /// Lowest and highest frequency in rad/s up to which the z = 1 motion goes on within the zone: its ends, but where the
-    /// branch folds back within it.
+    /// Lowest and highest frequency in rad/s of the zone, or of the range of it along which the motion goes on.
     pub fn own_range(&self) -> Option<(f64, f64)> {
         let zone = self.zone.as_ref()?;
-        if !zone.has_inner_folds() {
-            return Some((zone.frequency_g0, zone.high.frequency));
-        }
-        zone.range_of(&self.single_impact_orbit()?).ok()
+        let own = self.orbit().and_then(|orbit| zone.range_holding(orbit));
+        let zone = own.as_ref().unwrap_or(zone);
+        Some((zone.low.frequency, zone.high.frequency))
     }
 
     /// Distance from both ends of that range, as a share of it.

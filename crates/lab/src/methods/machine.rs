@@ -138,7 +138,7 @@ impl Machine {
     /// Push of the drive per mass in m/s^2.
     pub fn push(&self, time: f64) -> f64 {
         let (drive, amplitude) = (self.scene.excitation, self.phases().amplitude);
-        amplitude * (drive.frequency * time + drive.phase).cos()
+        amplitude * (drive.frequency * time + drive.reduced_phase()).cos()
     }
 
     /// Acceleration in m/s^2; counted.

@@ -119,7 +119,7 @@ impl<'a> Leg<'a> {
 /// The drive per mass in m/s^2 and its rate in m/s^3.
 fn drive(scene: &Scene, time: f64) -> (f64, f64) {
     let drive = scene.excitation;
-    let (sine, cosine) = (drive.frequency * time + drive.phase).sin_cos();
+    let (sine, cosine) = (drive.frequency * time + drive.reduced_phase()).sin_cos();
     let amplitude = drive.amplitude / scene.mass;
     (amplitude * cosine, -amplitude * drive.frequency * sine)
 }

@@ -1,0 +1,67 @@
+//! The ranges of a zone whose branch folds back within it: along each of them one stable motion goes on from end to end.
+
+use super::Zone;
+use super::end::ZoneEnd;
+use super::stable_range::is_same_state;
+use crate::continuation::{BranchPoint, SpecialKind, TestFunction};
+use crate::orbit::Orbit;
+use crate::tolerance::SAME;
+
+impl Zone {
+    /// The zone itself, or where its branch folds back within it each range of one motion as a zone of its own, in order along
+    /// the branch: they overlap in frequency, and a motion ends at the folds beside it. Undivided, too, where one of these
+    /// ranges ends in anything but a fold or an end of the zone.
+    pub fn ranges(&self) -> Vec<Self> {
+        let sides: Vec<&[BranchPoint]> = self.stable_sides().collect();
+        let ranges = sides.iter().map(|side| self.range_on(side));
+        match ranges.collect::<Option<Vec<Self>>>() {
+            Some(ranges) if ranges.len() > 1 => ranges,
+            _ => vec![self.clone()],
+        }
+    }
+
+    /// Of the [`Zone::ranges`] the one that ends above most like another zone, of a machine close by.
+    pub fn range_like(&self, other: &Self) -> Self {
+        let velocity = |zone: &Self| zone.high.point.before_impact_velocity();
+        let off = |range: &Self| (velocity(range) - velocity(other)).abs();
+        let mut ranges = self.ranges();
+        ranges.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        ranges.swap_remove(0)
+    }
+
+    /// Of the [`Zone::ranges`] the one that holds an orbit of the zone's machine; none if it is an orbit of another branch.
+    pub fn range_holding(&self, orbit: &Orbit) -> Option<Self> {
+        let holds = |range: &Self| {
+            let point = range.point_at(range.place_of(orbit.scene.excitation.frequency));
+            point.is_ok_and(|point| is_same_state(&point, orbit.state(), &self.scene))
+        };
+        self.ranges().into_iter().find(holds)
+    }
+
+    /// The range along a stable side; none if it ends in anything but a fold or an end of the zone.
+    fn range_on(&self, side: &[BranchPoint]) -> Option<Self> {
+        let end = |point: &BranchPoint, own: &ZoneEnd| match own.frequency == point.parameter {
+            true => Some(own.clone()),
+            false => {
+                let fold = SpecialKind::Critical(TestFunction::Fold);
+                let is_fold = point.fold_test().abs() <= SAME;
+                is_fold.then(|| ZoneEnd::at_special(point, fold))
+            }
+        };
+        Some(Self {
+            low: end(side.first()?, &self.low)?,
+            high: end(side.last()?, &self.high)?,
+            branch: side.to_vec(),
+            ..self.clone()
+        })
+    }
+
+    /// Parts of the branch on the stable side of folds: from the lower end to the first fold, and from there on each between
+    /// two neighbouring folds along which the parameter rises.
+    fn stable_sides(&self) -> impl Iterator<Item = &[BranchPoint]> {
+        let is_stable_side = |point: &BranchPoint| point.fold_test() >= -SAME;
+        let both =
+            move |from: &BranchPoint, to: &BranchPoint| is_stable_side(from) && is_stable_side(to);
+        self.branch.chunk_by(both).filter(|side| side.len() > 1)
+    }
+}
