@@ -221,7 +221,7 @@ impl OptimizeReport {
                 below(&self.rivals, &units),
             ),
             (
-                "Other ranges of stable z = 1, left out because they are no part of the zone",
+                "Other ranges of stable z = 1 of this machine",
                 below(&self.left_out, &units),
             ),
         ]);
@@ -264,7 +264,7 @@ fn objective<'a>() -> [Column<Sought<'a>>; 5] {
     }
 }
 
-/// The stretches of the design's machine that are no part of its zone.
+/// The ranges of stable z = 1 of the design's machine beside that of the design.
 fn left_out(design: &Design) -> Vec<Record> {
     let all =
         stable_ranges_with_monitor(&design.machine.scene, &interrupt::watch).unwrap_or_default();
