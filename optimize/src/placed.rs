@@ -52,6 +52,23 @@ pub(crate) fn sentences(design: &Design) -> String {
     )
 }
 
+/// Warns of a motion that ends at a fold within the zone, where the machine jumps to another motion.
+pub(crate) fn inner_fold_warning(design: &Design) -> Option<String> {
+    let zone = &design.zone;
+    let range = zone.range_holding(&design.orbit)?;
+    let [low, high] = [&range.low, &range.high].map(|end| end.frequency);
+    let is_whole = low == zone.low.frequency && high == zone.high.frequency;
+    let own = |frequency| Six.format(design.own_frequency(frequency));
+    (!is_whole).then(|| {
+        format!(
+            "the zone holds two motions: that of the design goes on from {} to {} only, to where margin_sn reaches; \
+             M and s are shares of the whole zone",
+            own(low),
+            own(high)
+        )
+    })
+}
+
 /// Width of a zone, as a share of its frequency, below which hardly a drive keeps within it.
 const NARROW: f64 = 1e-3;
 

@@ -142,7 +142,10 @@ impl OptimizeReport {
             comparison: comparison(problem, design, references),
             limits,
             without_effect: idle.collect(),
-            warnings: placed::warning(design).into_iter().collect(),
+            warnings: [placed::warning(design), placed::inner_fold_warning(design)]
+                .into_iter()
+                .flatten()
+                .collect(),
             requirements: met.collect(),
             cases: cases::records(problem, design, study),
             rivals: rivals.collect(),
@@ -221,7 +224,7 @@ impl OptimizeReport {
                 below(&self.rivals, &units),
             ),
             (
-                "Other ranges of stable z = 1 of this machine",
+                "Other ranges of stable z = 1, left out because they are no part of the zone",
                 below(&self.left_out, &units),
             ),
         ]);
@@ -264,7 +267,7 @@ fn objective<'a>() -> [Column<Sought<'a>>; 5] {
     }
 }
 
-/// The ranges of stable z = 1 of the design's machine beside that of the design.
+/// The stretches of the design's machine that are no part of its zone.
 fn left_out(design: &Design) -> Vec<Record> {
     let all =
         stable_ranges_with_monitor(&design.machine.scene, &interrupt::watch).unwrap_or_default();

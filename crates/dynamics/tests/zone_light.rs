@@ -78,11 +78,6 @@ fn a_motion_ends_at_its_own_folds() -> Outcome {
                 let low = below.max(zone.frequency_g0);
                 assert_near(range.low.frequency, low, printed(9));
             }
-            assert_near(
-                zone.range_like(range).low.frequency,
-                range.low.frequency,
-                printed(12),
-            );
         }
     }
     Ok(())

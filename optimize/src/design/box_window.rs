@@ -101,9 +101,9 @@ impl Corners<'_> {
         })
     }
 
-    fn high(&self, nominal: &Zone) -> Result<[Option<Edge>; 1 << DOUBTFUL], Infeasible> {
+    fn high(&self, zone: &Zone) -> Result<[Option<Edge>; 1 << DOUBTFUL], Infeasible> {
         let mut corner = vec![0.0; self.spread.dimensions()];
-        let Some(mut fold) = fold_of(nominal) else {
+        let Some(mut fold) = fold_of(zone) else {
             return Ok(std::array::from_fn(|_| None));
         };
         let normal = |corner: &[f64], fold: &BranchPoint| {
@@ -122,7 +122,6 @@ impl Corners<'_> {
                     "a machine within the tolerances has no zone: {error}"
                 ))
             })?;
-            let zone = zone.range_like(nominal);
             let Some(there) = fold_of(&zone) else {
                 break;
             };

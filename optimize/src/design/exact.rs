@@ -126,6 +126,7 @@ impl<'a> Linearization<'a> {
             both.map(|(moved, own)| own + moved).collect::<Vec<f64>>()
         };
         match figure {
+            Figure::FrequencySn if motion.ends_within_zone() => None,
             Figure::FrequencyG0 => {
                 let border = Border::at_g0(&motion.orbit.scene, true, parameters);
                 Some(above(&border.ok()?))

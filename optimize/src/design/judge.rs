@@ -61,6 +61,10 @@ impl<'a> Judged<'a> {
         match figure {
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
+            Figure::FrequencySn | Figure::ClearanceSn if self.ends_within_zone() => match figure {
+                Figure::FrequencySn => self.own_end() - frequency,
+                _ => self.along(Parameter::Clearance, Direction::Up, TestFunction::Fold),
+            },
             Figure::FrequencySn | Figure::ClearanceSn
                 if !self.zone.high.is_critical(TestFunction::Fold) =>
             {
@@ -86,6 +90,17 @@ impl<'a> Judged<'a> {
             }
             _ => f64::NAN,
         }
+    }
+
+    /// True if the motion may end at a fold within the zone, whose branch folds back.
+    pub(super) fn ends_within_zone(&self) -> bool {
+        self.zone.ranges().len() > 1
+    }
+
+    /// The frequency in rad/s up to which the motion goes on; NaN if it is none of the zone.
+    fn own_end(&self) -> f64 {
+        let range = self.zone.range_holding(self.orbit);
+        range.map_or(f64::NAN, |range| range.high.frequency)
     }
 
     /// Distance in rad/s from the flip below, infinite if there is none.
@@ -119,9 +134,7 @@ impl<'a> Judged<'a> {
             scene.clearance = clearance;
             let scenes = slice::from_ref(&scene);
             let zone = find_zones(self.zone.kind, scenes, &interrupt::watch).remove(0);
-            zone.map_or(-frequency, |zone| {
-                zone.range_like(self.zone).high.frequency - frequency
-            })
+            zone.map_or(-frequency, |zone| zone.high.frequency - frequency)
         };
         let (mut low, mut high) = ((from, self.zone.high.frequency - frequency), None);
         let mut step = WIDER * from;

@@ -6,8 +6,10 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
 use softstop_dynamics::BranchPoint;
 
-use super::as_required::as_required;
+use super::conflict::{conflict, short};
 use super::coordinates::keep_best;
+use super::figure::Figure;
+use super::judge::violation;
 use super::problem::Problem;
 use super::space::Interval;
 use super::zoned::Zoned;
@@ -27,36 +29,6 @@ const TOLERANCE: f64 = 1e-8;
 /// # Errors
 /// [`Infeasible`] if none of the motions looked at is found, stable and as required.
 pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
-    let mut ranges = zoned.ranges();
-    if let [_, _, ..] = ranges[..] {
-        let (open, closed): (Vec<_>, _) = ranges.into_iter().partition(|it| it.window().is_ok());
-        ranges = if open.is_empty() { closed } else { open };
-    }
-    let found = ranges.iter().map(best_along);
-    let better = |one, other| better_of(zoned.problem, one, other);
-    found
-        .reduce(better)
-        .unwrap_or_else(|| Err(Infeasible::unknown("")))
-}
-
-/// The better of what two ranges have: the higher score, or what lacks less.
-fn better_of(
-    problem: &Problem,
-    one: Result<Design, Infeasible>,
-    other: Result<Design, Infeasible>,
-) -> Result<Design, Infeasible> {
-    match (one, other) {
-        (Ok(one), Ok(other)) => match problem.score(&other) > problem.score(&one) {
-            true => Ok(other),
-            false => Ok(one),
-        },
-        (Ok(one), Err(_)) | (Err(_), Ok(one)) => Ok(one),
-        (Err(one), Err(other)) => Err(other.nearer(Some(one))),
-    }
-}
-
-/// The best motion along one range of a zone.
-fn best_along(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
     let window = zoned.window()?;
     let line = Line {
         zoned,
@@ -195,6 +167,33 @@ impl Line<'_> {
             None => Err(self.lack.take().unwrap_or_else(|| Infeasible::unknown(""))),
         }
     }
+}
+
+/// A design with the value of what is sought, if it is as required.
+fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> {
+    let motion = design.judged().map_err(Infeasible::unknown)?;
+    let met = problem.met(&motion);
+    let gap = violation(&met);
+    if gap != 0.0 {
+        return Err(Infeasible::new(gap, conflict(motion.machine, &met)));
+    }
+    let value = problem.sought(&motion).ok_or_else(|| {
+        let figure = problem.objective.figure;
+        let name = figure.name();
+        Infeasible::unknown(match problem.value(&motion, figure) {
+            value if value.is_finite() => {
+                let value = short(value);
+                format!("{name} is {value}: what is sought must be positive")
+            }
+            _ => match &problem.cost {
+                Some(cost) if figure == Figure::Cost => {
+                    format!("objective.cost = {cost:?} has no finite value")
+                }
+                _ => format!("{name} has no value"),
+            },
+        })
+    })?;
+    Ok(Design { value, ..design })
 }
 
 impl CostFunction for &Line<'_> {

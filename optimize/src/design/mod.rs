@@ -5,7 +5,6 @@
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
 //! then found along it (`line_search`). [`search`] drives the outer search.
 
-mod as_required;
 mod ascent;
 mod box_window;
 pub mod case;

@@ -18,14 +18,6 @@ impl Trials<'_> {
         let problem = self.problem;
         let cases = problem.in_cases();
         let zoned = Zoned::find(problem, &cases, &problem.axis_values(unit))?;
-        let ranges = zoned.ranges().into_iter();
-        let found = ranges.filter_map(|range| self.along_range(&range, least));
-        found.max_by(|a, b| self.score(a).total_cmp(&self.score(b)))
-    }
-
-    /// The best motion along one range of a zone that passes and is better than that.
-    fn along_range(&self, zoned: &Zoned<'_>, least: f64) -> Option<Design> {
-        let problem = self.problem;
         let window = zoned.window().ok()?;
         let design = |place: f64| self.known.design(problem, zoned.at(place)?);
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));

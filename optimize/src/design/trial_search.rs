@@ -168,19 +168,15 @@ impl<'a> Trials<'a> {
     fn least_violation(&self, unit: &[f64]) -> Option<f64> {
         let cases = self.problem.in_cases();
         let zoned = Zoned::find(self.problem, &cases, &self.problem.axis_values(unit))?;
-        let lack = |range: &Zoned<'_>, place: f64| {
-            let place = range.window().ok()?.at(place);
-            let design = self.known.design(self.problem, range.at(place)?)?;
-            self.problem.trial_violation(&design)
-        };
+        let window = zoned.window().ok()?;
         let places = (0..FEW_TRIES).map(|index| index as f64 / (FEW_TRIES - 1) as f64);
-        let ranges = zoned.ranges();
-        let lacks = ranges
-            .iter()
-            .flat_map(|range| places.clone().map(move |at| (range, at)));
-        lacks
-            .filter_map(|(range, at)| lack(range, at))
-            .min_by(f64::total_cmp)
+        let lacks = places.filter_map(|place| {
+            let design = self
+                .known
+                .design(self.problem, zoned.at(window.at(place))?)?;
+            self.problem.trial_violation(&design)
+        });
+        lacks.min_by(f64::total_cmp)
     }
 
     /// A direct search from a design.

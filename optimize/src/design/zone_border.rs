@@ -2,7 +2,6 @@
 //! their trials may lie in a strip beside the border that is narrower than any lattice.
 
 use super::problem::Problem;
-use super::zoned::Zoned;
 
 /// Halvings of a line across the border.
 const HALVINGS: u32 = 9;
@@ -62,12 +61,8 @@ impl Problem {
     /// Whether points of the unit cube have a zone with places that are allowed.
     fn have_zones(&self, units: &[Vec<f64>]) -> Vec<bool> {
         let values: Vec<_> = units.iter().map(|unit| self.axis_values(unit)).collect();
-        let has_window = |zoned: &Zoned<'_>| {
-            let mut ranges = zoned.ranges().into_iter();
-            Ok(ranges.any(|range| range.window().is_ok()))
-        };
-        let found = self.on_zones(&values, has_window).into_iter();
-        found.map(|it| it.unwrap_or(false)).collect()
+        let windows = self.on_zones(&values, |it| it.window());
+        windows.iter().map(Result::is_ok).collect()
     }
 }
 

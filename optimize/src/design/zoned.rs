@@ -4,14 +4,12 @@ use softstop::{Dimension, Machine};
 use softstop_dynamics::Zone;
 use softstop_dynamics::zone::ZoneError;
 
-use super::as_required::as_required;
 use super::operating_point::At;
 use super::problem::Problem;
 use super::space::Interval;
 use super::{Design, Infeasible, distance_from_zones, finite_or};
 
-/// A machine with its zone, or with one range of it.
-#[derive(Clone)]
+/// A machine with its zone.
 pub(super) struct Zoned<'a> {
     pub problem: &'a Problem,
     pub machine: Machine,
@@ -21,8 +19,7 @@ pub(super) struct Zoned<'a> {
 }
 
 impl Design {
-    /// The motion at a point of the search, the best of those of several ranges of the zone, without the values of what is sought;
-    /// none if there is no stable one.
+    /// The motion at a point of the search, without the values of what is sought; none if there is no stable one.
     pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
         let cases = problem.in_cases();
         let zoned = Zoned::find(problem, &cases, &problem.axis_values(at.unit))?;
@@ -31,16 +28,7 @@ impl Design {
             None => f64::NAN,
         };
         let place = at.place.filter(|_| !problem.has_given_frequency());
-        let grade = |design: &Self| match as_required(problem, design.clone()) {
-            Ok(design) => problem.score(&design),
-            Err(lack) => -lack.gap,
-        };
-        let ranges = zoned.ranges().into_iter();
-        let found = ranges.filter_map(|it| it.at(place.unwrap_or_else(|| it.place_of(given))));
-        found.reduce(|one, other| match grade(&other) > grade(&one) {
-            true => other,
-            false => one,
-        })
+        zoned.at(place.unwrap_or_else(|| zoned.place_of(given)))
     }
 }
 
@@ -71,24 +59,6 @@ impl<'a> Zoned<'a> {
         let own = Self::new(problem, machine, zone).ok()?;
         let cases = cases.iter().map(|case| Self::find(case, &[], values));
         own.with_cases(cases.collect::<Option<_>>()?).into()
-    }
-
-    /// The machine with each range of its zone, and in each case with the range that is most like it.
-    pub fn ranges(&self) -> Vec<Self> {
-        let on = |zone: Zone| {
-            let cases = self.cases.iter();
-            let cases = cases.map(|case| Self {
-                zone: case.zone.range_like(&zone),
-                ..case.clone()
-            });
-            Self {
-                cases: cases.collect(),
-                machine: self.machine.clone(),
-                problem: self.problem,
-                zone,
-            }
-        };
-        self.zone.ranges().into_iter().map(on).collect()
     }
 
     pub fn with_cases(self, cases: Vec<Self>) -> Self {

@@ -5,7 +5,7 @@ use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
-use softstop_dynamics::zone::{ZoneError, find_zones};
+use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Tolerances;
@@ -62,7 +62,7 @@ pub struct Scatter {
 /// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
 pub fn scatter(
     spread: &Tolerances,
-    (nominal, zone): (&Orbit, &Zone),
+    (nominal, kind): (&Orbit, ZoneKind),
     effort: Effort,
     watcher: Monitor<'_>,
 ) -> Result<Option<Scatter>, OrbitError> {
@@ -73,14 +73,9 @@ pub fn scatter(
     let known: Vec<Vec<f64>> = known.map(|index| sobol_point(index, dimensions)).collect();
     let guide = Surrogate::new(spread, nominal, &known)?;
     let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
-    let zones = find_zones(zone.kind, &scenes, watcher).into_iter();
-    let like = |found: Zone| found.range_like(zone);
+    let zones = find_zones(kind, &scenes, watcher).into_iter();
     let ends: Result<Vec<_>, _> = zones
-        .map(|found| {
-            found
-                .map(like)
-                .map(|it| [it.low.frequency, it.high.frequency])
-        })
+        .map(|zone| zone.map(|zone| [zone.low.frequency, zone.high.frequency]))
         .collect();
     if watcher(0, 0).is_break() {
         return Err(OrbitError::Stopped);

@@ -20,15 +20,6 @@ impl Zone {
         }
     }
 
-    /// Of the [`Zone::ranges`] the one that ends above most like another zone, of a machine close by.
-    pub fn range_like(&self, other: &Self) -> Self {
-        let velocity = |zone: &Self| zone.high.point.before_impact_velocity();
-        let off = |range: &Self| (velocity(range) - velocity(other)).abs();
-        let mut ranges = self.ranges();
-        ranges.sort_by(|a, b| off(a).total_cmp(&off(b)));
-        ranges.swap_remove(0)
-    }
-
     /// Of the [`Zone::ranges`] the one that holds an orbit of the zone's machine; none if it is an orbit of another branch.
     pub fn range_holding(&self, orbit: &Orbit) -> Option<Self> {
         let holds = |range: &Self| {

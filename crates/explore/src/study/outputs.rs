@@ -98,11 +98,9 @@ fn figure_output(figure: Figure) -> Option<(&'static [Need], OutputKind)> {
         Figure::MaxPosition => number(&[Motion], |it| {
             it.seen.as_ref()?.max_position(it.map()?).ok()
         }),
-        Figure::Share => number(&[Motion, Zone], |it| it.share_of_own_range()),
+        Figure::Share => number(&[Zone], |it| it.place().map(|place| place.min(1.0 - place))),
         Figure::FrequencyG0 => number(&[Grazing], |it| Some(it.frequency() - it.grazing()?)),
-        Figure::FrequencySn => number(&[Motion, Zone], |it| {
-            Some(it.own_range()?.1 - it.frequency())
-        }),
+        Figure::FrequencySn => number(&[Motion, Zone], |it| Some(it.own_fold()? - it.frequency())),
         Figure::FrequencyPd => number(&[Motion, Zone], |it| Some(it.frequency() - it.flip()?)),
         Figure::ClearanceG0 => number(&[], |it| {
             let free = free_amplitude(it.scene(), it.frequency());

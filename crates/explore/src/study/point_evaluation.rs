@@ -131,23 +131,19 @@ impl PointEvaluation<'_> {
         Some(flip.map_or(f64::NEG_INFINITY, |flip| flip.parameter))
     }
 
-    /// Lowest and highest frequency in rad/s of the zone, or of the range of it along which the motion goes on.
-    pub fn own_range(&self) -> Option<(f64, f64)> {
+    /// The frequency in rad/s of the fold up to which the motion goes on, or the hardest motion of the zone here; outside the zone that
+    /// of its upper end.
+    pub fn own_fold(&self) -> Option<f64> {
         let zone = self.zone.as_ref()?;
-        let own = self.orbit().and_then(|orbit| zone.range_holding(orbit));
-        let zone = own.as_ref().unwrap_or(zone);
-        Some((zone.low.frequency, zone.high.frequency))
-    }
-
-    /// Distance from both ends of that range, as a share of it.
-    pub fn share_of_own_range(&self) -> Option<f64> {
-        let (low, high) = self.own_range()?;
-        let place = (self.frequency() - low) / (high - low);
-        Some(place.min(1.0 - place))
+        let holding = |orbit: &Orbit| zone.range_holding(orbit);
+        let own = self.orbit().and_then(holding);
+        let hardest = || holding(&zone.orbit_at(self.place()?).ok()?);
+        let range = own.or_else(hardest);
+        Some(range.as_ref().unwrap_or(zone).high.frequency)
     }
 
     /// Place in the zone: 0 at g0, 1 at s_SN.
-    fn place(&self) -> Option<f64> {
+    pub fn place(&self) -> Option<f64> {
         let zone = self.zone.as_ref()?;
         Some((self.frequency() - zone.frequency_g0) / (zone.high.frequency - zone.frequency_g0))
     }
