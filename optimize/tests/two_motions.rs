@@ -73,7 +73,7 @@ fn a_margin_of_the_clearance_is_that_of_the_own_motion() -> Outcome {
     let fold = |clearance: f64| -> Result<f64, Box<dyn std::error::Error>> {
         let clearance = format!("clearance={clearance}");
         let zones = SOFTSTOP.json(&["zone", &task, "--set", &clearance]);
-        let ranges = zones["ranges"].as_array().ok_or("ranges")?;
+        let ranges = zones["stretches"].as_array().ok_or("ranges")?;
         let ends = ranges.iter().filter(|it| it["in_zone"] == true);
         let first = ends.filter_map(|it| it["to"].as_f64()).reduce(f64::min);
         Ok(first.ok_or("a range in the zone")?)
