@@ -61,7 +61,7 @@ pub(crate) fn inner_fold_warning(design: &Design) -> Option<String> {
     let own = |frequency| Six.format(design.own_frequency(frequency));
     (!is_whole).then(|| {
         format!(
-            "the zone holds two motions: that of the design goes on from {} to {} only, to where margin_sn reaches; \
+            "the zone holds several motions: that of the design goes on from {} to {} only, to where margin_sn reaches; \
              M and s are shares of the whole zone",
             own(low),
             own(high)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use softstop_optimize::design::figure::Figure;
-use softstop_testing::{docs, files, words};
+use softstop_testing::{docs, files, with_folders, words};
 
 use crate::interrupts::dispositions::{self, Writes};
 use crate::{Outcome, SOFTSTOP};
@@ -131,9 +131,10 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
     ];
     // These take a start.
     let starts = ["simulate", "watch", "explore", "fidelity", "fmu"];
-    let explore = ("explore".to_owned(), Writes::File);
+    let explore = &("explore", "", Writes::File);
     let mut met = 0;
-    for (command, writes) in dispositions::lines().chain([explore]) {
+    for (command, _, writes) in dispositions::COMMANDS.iter().chain([explore]) {
+        let command = with_folders(command);
         let name = words(&command)[0];
         if !SOFTSTOP.text(&[name, "--help"]).contains("[MACHINE]") {
             continue;

@@ -15,38 +15,40 @@ pub enum Writes {
 
 use Writes::{File, Folder, Nothing};
 
-/// All commands, and what they write, without a machine. None takes long.
-pub const COMMANDS: &[(&str, Writes)] = &[
-    ("orbit", Nothing),
-    ("motions --starts 16", Folder),
-    ("continue --parameter eta --from 1.1 --to 1.2", Folder),
-    ("zone", Nothing),
-    ("prove", File),
-    ("sweep --from 0.8 --to 1.8 --steps 100", Folder),
-    ("basin --size 60", Folder),
-    ("basin --along-zone 3 --size 20", Folder),
+/// All commands, the machine that each is run with if it is not the paper's unloaded one, and what they write. None takes long.
+pub const COMMANDS: &[(&str, &str, Writes)] = &[
+    ("orbit", "", Nothing),
+    ("motions --starts 16", "", Folder),
+    ("continue --parameter eta --from 1.1 --to 1.2", "", Folder),
+    ("zone", "", Nothing),
+    ("prove", "A", File),
+    ("sweep --from 0.8 --to 1.8 --steps 100", "", Folder),
+    ("basin --size 60", "", Folder),
+    ("basin --along-zone 3 --size 20", "", Folder),
     (
         "basin --parameter eta --from 1.1 --to 1.2 --steps 3 --size 20",
+        "",
         Folder,
     ),
-    ("study STUDIES/map.toml", Folder),
+    ("study STUDIES/map.toml", "", Folder),
     (
         "optimize --evaluations 100 --no-report --samples 10",
+        "",
         Folder,
     ),
-    ("fmu", File),
-    ("schema", Nothing),
-    ("schema study", Nothing),
-    ("simulate", Folder),
-    ("watch", File),
-    ("stops", Folder),
-    ("fidelity --repeats 1", Folder),
+    ("fmu", "", File),
+    ("schema", "", Nothing),
+    ("schema study", "", Nothing),
+    ("simulate", "SCENES/hertz.toml", Folder),
+    ("watch", "loaded", File),
+    ("stops", "", Folder),
+    ("fidelity --repeats 1", "B", Folder),
 ];
 
 /// Their lines, with the folders of scenes and studies.
 pub fn lines() -> impl Iterator<Item = (String, Writes)> {
     let lines = COMMANDS.iter();
-    lines.map(|(line, writes)| (with_folders(line), *writes))
+    lines.map(|(line, machine, writes)| (with_folders(&format!("{line} {machine}")), *writes))
 }
 
 /// The names of all commands, from the help.
@@ -72,7 +74,7 @@ pub fn names() -> Vec<String> {
 fn the_table_has_every_command() {
     for name in names().into_iter().filter(|name| name != "explore") {
         let mut all = COMMANDS.iter();
-        assert!(all.any(|(line, _)| words(line)[0] == name), "{name}");
+        assert!(all.any(|(line, ..)| words(line)[0] == name), "{name}");
     }
 }
 

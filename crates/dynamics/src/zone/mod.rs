@@ -30,7 +30,6 @@ pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 
 use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};
-use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene};
 
 /// The kind of a zone: which motions it holds.
@@ -123,11 +122,8 @@ impl Zone {
         let continuation = Continuation::new(&family, 1);
         let target = self.frequency_at(share);
         let mut best: Option<BranchPoint> = None;
-        for pair in self.branch.windows(2) {
+        for pair in self.stable_sides().flat_map(|side| side.windows(2)) {
             let (from, to) = (&pair[0], &pair[1]);
-            if from.fold_test() < -SAME || to.fold_test() < -SAME {
-                continue;
-            }
             let point = match (from.parameter - target, to.parameter - target) {
                 (0.0, _) => from.clone(),
                 (_, 0.0) => to.clone(),

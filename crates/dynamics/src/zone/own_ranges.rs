@@ -49,10 +49,11 @@ impl Zone {
 
     /// Parts of the branch on the stable side of folds: from the lower end to the first fold, and from there on each between
     /// two neighbouring folds along which the parameter rises.
-    fn stable_sides(&self) -> impl Iterator<Item = &[BranchPoint]> {
-        let is_stable_side = |point: &BranchPoint| point.fold_test() >= -SAME;
-        let both =
-            move |from: &BranchPoint, to: &BranchPoint| is_stable_side(from) && is_stable_side(to);
-        self.branch.chunk_by(both).filter(|side| side.len() > 1)
+    pub(super) fn stable_sides(&self) -> impl Iterator<Item = &[BranchPoint]> {
+        let is_beyond_fold = |point: &BranchPoint| point.fold_test() < -SAME;
+        let sides = self
+            .branch
+            .chunk_by(move |from, to| !is_beyond_fold(from) && !is_beyond_fold(to));
+        sides.filter(|side| side.len() > 1)
     }
 }
