@@ -58,15 +58,18 @@ pub(crate) fn inner_fold_warning(design: &Design) -> Option<String> {
     let range = zone.range_holding(&design.orbit)?;
     let [low, high] = [&range.low, &range.high].map(|end| end.frequency);
     let is_whole = low == zone.low.frequency && high == zone.high.frequency;
+    let of = match zone.range {
+        Some(_) => "this range",
+        None if is_whole => return None,
+        None => "the whole zone",
+    };
     let own = |frequency| Six.format(design.own_frequency(frequency));
-    (!is_whole).then(|| {
-        format!(
-            "the zone holds several motions: that of the design goes on from {} to {} only, to where margin_sn reaches; \
-             M and s are shares of the whole zone",
-            own(low),
-            own(high)
-        )
-    })
+    Some(format!(
+        "the zone holds several motions: that of the design goes on from {} to {} only, to where margin_sn reaches; \
+         M and s are shares of {of}",
+        own(low),
+        own(high)
+    ))
 }
 
 /// Width of a zone, as a share of its frequency, below which hardly a drive keeps within it.

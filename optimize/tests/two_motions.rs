@@ -39,6 +39,11 @@ fn required(report: &Value, name: &str) -> f64 {
     it.and_then(|it| it["value"].as_f64()).expect(name)
 }
 
+/// A number that says where a design stands.
+fn number(report: &Value, name: &str) -> f64 {
+    report["design"][name].as_f64().expect(name)
+}
+
 #[test]
 fn a_margin_reaches_to_the_fold_of_the_own_motion() -> Outcome {
     let folder = tempfile::tempdir()?;
@@ -79,6 +84,46 @@ fn a_margin_of_the_clearance_is_that_of_the_own_motion() -> Outcome {
         Ok(first.ok_or("a range in the zone")?)
     };
     assert!(fold(0.01 + 0.999 * margin)? > 32.65 && fold(0.01 + 1.001 * margin)? < 32.65);
+    Ok(())
+}
+
+#[test]
+fn what_is_sought_decides_between_two_motions() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let values = [
+        ("maximise = \"velocity\"", 11.917, LAST_FOLD),
+        ("minimise = \"stop_force\"", 7.514_105_560_5, OWN_FOLD),
+    ];
+    for (index, (objective, velocity, fold)) in values.into_iter().enumerate() {
+        let lines =
+            format!("[objective]\n{objective}\n[require]\nmargin_sn = 0.01\nvelocity = 6.0\n");
+        let task = task(folder.path(), "32.75", &lines)?;
+        let report = OPTIMIZE.json_into(&folder.path().join(index.to_string()), &[&task]);
+        assert_abs_diff_eq!(required(&report, "velocity"), velocity, epsilon = 0.01);
+        assert_abs_diff_eq!(required(&report, "margin_sn"), fold - 32.75, epsilon = 1e-9);
+    }
+    Ok(())
+}
+
+/// The hardest motion of the second range is at its lower fold: a margin is counted from there, whatever the bounds of the
+/// frequency, and whether more is required or not.
+#[test]
+fn a_narrow_range_of_a_wide_zone_is_searched_to_its_margin() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let margin = "[require]\nmargin = 0.25\n";
+    let cases = [
+        ("[32.9, 33.1]", margin.to_owned()),
+        ("[20.0, 40.0]", margin.to_owned()),
+        ("[20.0, 40.0]", format!("{margin}velocity = 1.0\n")),
+    ];
+    for (index, (frequency, lines)) in cases.iter().enumerate() {
+        let task = task(folder.path(), frequency, lines)?;
+        let report = OPTIMIZE.json_into(&folder.path().join(index.to_string()), &[&task]);
+        assert_abs_diff_eq!(number(&report, "zone_to"), LAST_FOLD, epsilon = 1e-9);
+        assert_abs_diff_eq!(number(&report, "s"), 0.25, epsilon = 1e-9);
+        let velocity = report["design"]["before_impact_velocity"].as_f64();
+        assert_abs_diff_eq!(velocity.expect("a velocity"), 11.2966, epsilon = 1e-4);
+    }
     Ok(())
 }
 

@@ -34,7 +34,8 @@ const CORNERS: usize = 3;
 /// Both ends.
 #[derive(Debug, Clone)]
 pub(super) struct BoxWindow {
-    /// g0, which moves one way with each parameter, if the zone begins there.
+    /// g0, which moves one way with each parameter, if the zone begins there. What else it begins with, and a fold at the lower end
+    /// of a range, is not known here.
     pub low: Option<Edge>,
     /// `s_SN`, if the zone ends there, at each corner where it can be the nearest: on both sides of the tolerances along which its normal is small.
     /// Always as many, so that the constraints of a search stay the same.

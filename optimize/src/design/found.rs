@@ -98,6 +98,7 @@ impl Found {
 
     /// Takes the design of another search, which is the better one or as good.
     pub(super) fn take_design(&mut self, problem: &Problem, other: &Self) {
+        let problem = &problem.on_range_of(&other.design);
         let Held { limits, residue } = held(problem, &other.candidate(), &other.known);
         *self = Self {
             limits,
@@ -111,6 +112,7 @@ impl Found {
 
     /// Goes on from a design of a problem like this one: true if that has led to a better design.
     pub fn go_on_from(&mut self, problem: &Problem, from: &Candidate) -> bool {
+        let problem = &problem.on_range_of(&from.design);
         let mut start = from.clone();
         if let Some(design) = start.design.clone().with_own_values(problem) {
             start.design = design;

@@ -134,6 +134,7 @@ impl<'a> Judged<'a> {
             scene.clearance = clearance;
             let scenes = slice::from_ref(&scene);
             let zone = find_zones(self.zone.kind, scenes, &interrupt::watch).remove(0);
+            let zone = zone.map(|zone| zone.on_range(self.zone.range));
             zone.map_or(-frequency, |zone| zone.high.frequency - frequency)
         };
         let (mut low, mut high) = ((from, self.zone.high.frequency - frequency), None);

@@ -154,12 +154,11 @@ fn of_point(
         let exact = exact?;
         let none = || Slope::free(exact.frequency.len());
         let inside = |edge| inside(exact, edge);
-        if let Some(edge) = &edges.low {
-            keep(Limit::Tolerances(End::Lower), inside(edge)?);
-        }
-        for edge in &edges.high {
+        let ends = [(End::Lower, &edges.low)].into_iter();
+        let ends = ends.chain(edges.high.iter().map(|edge| (End::Upper, edge)));
+        for (end, edge) in ends {
             let slope = edge.as_ref().map_or_else(|| Some(none()), inside)?;
-            keep(Limit::Tolerances(End::Upper), slope);
+            keep(Limit::Tolerances(end), slope);
         }
     }
     let critical = known.slopes(exact)?;

@@ -200,6 +200,7 @@ impl Problem {
             let zone = match self.zone {
                 ZoneKind::Hysteresis => {
                     let zone = zone::hysteresis_with_monitor(&machine.scene, &interrupt::watch);
+                    let zone = zone.map(|zone| zone.on_range(self.range));
                     zone.or_else(|none| problem.zone_of(&machine).map_err(|_| none))
                 }
                 ZoneKind::SingleImpact { .. } => problem.zone_of(&machine),
@@ -212,8 +213,14 @@ impl Problem {
 
     /// The zone of a machine, on the way of a search.
     fn zone_of(&self, machine: &Machine) -> Result<Zone, ZoneError> {
-        let scenes = slice::from_ref(&machine.scene);
-        zone::find_zones(self.zone, scenes, &interrupt::watch).remove(0)
+        self.zones_of(slice::from_ref(&machine.scene)).remove(0)
+    }
+
+    /// The zones of some scenes, of less accuracy than a report has.
+    pub fn zones_of(&self, scenes: &[Scene]) -> Vec<Result<Zone, ZoneError>> {
+        let zones = zone::find_zones(self.zone, scenes, &interrupt::watch).into_iter();
+        let zones = zones.map(|zone| zone.map(|zone| zone.on_range(self.range)));
+        zones.collect()
     }
 
     /// The best frequencies at many points, with zones of less accuracy: on the way of a search.
@@ -246,8 +253,7 @@ impl Problem {
     fn zoned(&self, points: &[Vec<f64>]) -> Vec<Result<Zoned<'_>, Infeasible>> {
         let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
         let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
-        let zones = zone::find_zones(self.zone, &scenes, &interrupt::watch);
-        let pairs = machines.into_iter().zip(zones);
+        let pairs = machines.into_iter().zip(self.zones_of(&scenes));
         pairs
             .map(|(machine, zone)| Zoned::new(self, machine, zone))
             .collect()

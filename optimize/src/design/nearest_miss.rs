@@ -49,6 +49,7 @@ fn minimize(problem: &Problem, from: &Point, edge: f64) -> Result<Point, Error> 
     Ok(Point {
         unit: unit.iter().map(|at| at.clamp(0.0, 1.0)).collect(),
         cost: found.state.get_best_cost(),
+        ranges: from.ranges,
     })
 }
 

@@ -42,6 +42,15 @@ impl Problem {
         self.axes.iter().map(value).collect()
     }
 
+    /// The problem on the range of the zone on which a design was found.
+    #[must_use]
+    pub fn on_range_of(&self, design: &Design) -> Self {
+        Self {
+            range: design.zone.range,
+            ..self.clone()
+        }
+    }
+
     /// The operating points of a design, that of the drawing first.
     pub fn operating_points<'a>(&'a self, design: &'a Design) -> Vec<OperatingPoint<'a>> {
         let own = OperatingPoint {

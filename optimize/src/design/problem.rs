@@ -23,6 +23,9 @@ pub struct Problem {
     pub machine: Machine,
     /// Which motions are searched.
     pub zone: ZoneKind,
+    /// Which range of a zone whose branch folds back, as [`Zone::on_range`] counts them; none: the hardest motion of all of them
+    /// at each frequency.
+    pub range: Option<usize>,
     /// Least distance M of s from 0 and 1, in [0, 0.5].
     pub margin: f64,
     /// The parameters that the search may choose, but the drive's frequency.
@@ -215,6 +218,7 @@ impl Problem {
         Self {
             machine,
             zone: ZoneKind::Hysteresis,
+            range: None,
             margin: 0.0,
             axes,
             frequency: Interval::ANY,

@@ -37,6 +37,8 @@ const SURVEY: u64 = 15;
 const LARGEST_SURVEY: u64 = 3;
 /// Points from which ascents start at once: where as many better nothing, no more are made.
 const STARTS: usize = 4;
+/// Points of the survey whose zones have several ranges from which ascents start on each of these.
+const STARTS_ON_RANGES: usize = 2;
 /// What each ascent counts of the evaluations that the survey leaves.
 pub const EVALUATIONS_PER_START: u64 = 80;
 /// Designs whose catalogues and trials are looked at, at most, until one passes.
@@ -74,7 +76,7 @@ pub fn search_from(
 ) -> Result<Found, SearchError> {
     let incumbent = Incumbent::new(problem);
     let survey = Survey::new(problem, watch, &incumbent, kept);
-    let found = Search::new(&survey, settings, starts).map(|search| search.best());
+    let found = Search::new(&survey, settings, starts).map(best_over_ranges);
     // What was cut short may be among the best.
     if survey.is_over_budget() {
         return Err(SearchError::OverBudget);
@@ -87,7 +89,8 @@ pub fn search_from(
                 tried: Vec::new(),
                 resolution: None,
             };
-            Box::new(Found::new(problem, untried, Vec::new()))
+            let problem = problem.on_range_of(&untried.robust.candidate.design);
+            Box::new(Found::new(&problem, untried, Vec::new()))
         });
         return Err(SearchError::Stopped(best));
     }
@@ -104,6 +107,8 @@ struct Search<'a> {
     tops: Vec<Candidate>,
     /// Points of the survey that are apart from those of the ascents, the best first.
     spare: Vec<Point>,
+    /// The best points of the survey whose zones have several ranges.
+    folded: Vec<Point>,
     /// Designs that keep their whole box of tolerances.
     robust: Vec<Robust>,
     /// What the best of the others lacks.
@@ -127,6 +132,8 @@ impl<'a> Search<'a> {
                 apart.push(point.clone());
             }
         }
+        let folded = points.iter().filter(|it| it.ranges > 1);
+        let folded: Vec<Point> = folded.take(STARTS_ON_RANGES).cloned().collect();
         let left_out = apart.len().saturating_sub(most);
         apart.truncate(most);
         let known = CriticalMachines::default();
@@ -139,6 +146,7 @@ impl<'a> Search<'a> {
             nearest: points.into_iter().next()?,
             tops: given,
             spare: apart,
+            folded,
             robust: Vec::new(),
             lack: None,
             ascents: Ascents {
@@ -174,8 +182,37 @@ impl<'a> Search<'a> {
         self.tops.dedup_by(|it, known| it.is_same(known));
     }
 
-    /// The best design with the whole box of tolerances, the neighbours of catalogues and all trials.
-    fn best(mut self) -> Result<Found, SearchError> {
+    /// A search on a range of the zones that have several, from where these are.
+    fn on_range<'b>(&self, survey: &'b Survey<'b>) -> Search<'b> {
+        let tops = self.tops.iter().filter(|it| has_ranges(it));
+        let folded = self.folded.iter().map(|it| &it.unit);
+        let units: Vec<_> = tops.map(|it| &it.unit).chain(folded).collect();
+        let tops = parallel::filter_map(&units, |unit| {
+            survey.charged(|| ascend(survey.problem, unit))
+        });
+        let mut search = Search {
+            survey,
+            surveyed: self.surveyed,
+            nearest: self.nearest.clone(),
+            tops,
+            spare: Vec::new(),
+            folded: Vec::new(),
+            robust: Vec::new(),
+            lack: None,
+            ascents: self.ascents,
+        };
+        search.sort();
+        search
+    }
+
+    /// The score of the best top; that of none is below all.
+    fn top_score(&self) -> f64 {
+        let top = self.tops.first();
+        top.map_or(f64::NEG_INFINITY, |it| self.score(it))
+    }
+
+    /// The best design with the whole box of tolerances, the neighbours of catalogues and all trials, if its score is above a bound.
+    fn best(mut self, bound: f64) -> Result<Found, SearchError> {
         let problem = self.survey.problem;
         if self.tops.is_empty() {
             self.climb_from_nearest()?;
@@ -196,7 +233,7 @@ impl<'a> Search<'a> {
         }
         let mut sought_from = Vec::new();
         let finalists = finalists.into_iter().cloned();
-        let passing = check_finalists(problem, finalists, 0.0, &mut sought_from);
+        let passing = check_finalists(problem, finalists, bound, &mut sought_from);
         let failed = |failed| SearchError::none_passes(problem, self.surveyed, failed);
         let (passed, others) = passing.map_err(failed)?;
         let best = &passed.robust;
@@ -283,6 +320,50 @@ impl<'a> Search<'a> {
             Err(lack) => self.lack = Some(lack.nearer(self.lack.take())),
         }
     }
+}
+
+/// The best design of a search. Where the branch of a zone folds back, several motions coexist and each ends at a fold of its own:
+/// such a zone is searched as a whole, where its hardest motion counts at each frequency, and on each of its ranges apart.
+fn best_over_ranges(whole: Search<'_>) -> Result<Found, SearchError> {
+    let survey = whole.survey;
+    let problem = survey.problem;
+    let ranges = whole.folded.iter().map(|it| it.ranges);
+    let ranges = ranges.chain(whole.tops.iter().map(|it| it.design.zone.ranges().len()));
+    let count = ranges.max().filter(|count| *count > 1).unwrap_or(0);
+    let on_ranges = (0..count).map(|index| Problem {
+        range: Some(index),
+        ..problem.clone()
+    });
+    let on_ranges: Vec<Problem> = on_ranges.collect();
+    let surveys: Vec<_> = on_ranges.iter().map(|it| survey.of_problem(it)).collect();
+    let mut searches: Vec<Search<'_>> = surveys.iter().map(|it| whole.on_range(it)).collect();
+    searches.retain(|it| !it.tops.is_empty());
+    searches.push(whole);
+    sort_falling(&mut searches, Search::top_score);
+    let mut best: Option<Found> = None;
+    let mut failure = None;
+    for search in searches {
+        let bound = best.as_ref();
+        let bound = bound.map_or(0.0, |it| (1.0 + GAIN) * problem.score(&it.design));
+        if best.is_some() && search.top_score() <= bound {
+            continue;
+        }
+        match search.best(bound) {
+            Ok(found) if problem.score(&found.design) > bound => best = Some(found),
+            Ok(_) => (),
+            Err(error) => _ = failure.get_or_insert(error),
+        }
+    }
+    match (best, failure) {
+        (Some(found), _) => Ok(found),
+        (None, Some(error)) => Err(error),
+        (None, None) => Err(SearchError::Stopped(None)),
+    }
+}
+
+/// True if the zone of a design has several ranges.
+fn has_ranges(it: &Candidate) -> bool {
+    it.design.zone.ranges().len() > 1
 }
 
 /// True if two points of the cube are not one hill's.

@@ -154,6 +154,7 @@ impl Solution {
 
 /// All trade-offs of a design, and those of which there is none, each with the reason.
 fn traded(problem: &Problem, found: &Found) -> (Vec<(Front, Option<Candidate>)>, Vec<String>) {
+    let problem = &problem.on_range_of(&found.design);
     let figures = TRADED.iter().filter(|it| **it != problem.objective.figure);
     let figures: Vec<&Figure> = figures.collect();
     let traded = parallel::map(&figures, |figure| front(problem, found, **figure));

@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 use std::slice::from_ref;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use argmin::core::{CostFunction, Error};
@@ -14,7 +15,8 @@ use super::coordinates::Candidate;
 use super::incumbent::{Incumbent, Rank};
 use super::problem::Problem;
 use super::space::digits;
-use super::{Design, Infeasible};
+use super::zoned::Zoned;
+use super::{Design, Infeasible, line_search};
 use crate::order::sort_rising;
 
 /// Who watches a search, from several threads at once.
@@ -57,6 +59,8 @@ impl Watch for Unwatched {}
 pub(super) struct Point {
     pub unit: Vec<f64>,
     pub cost: f64,
+    /// Ranges of the zone, which are several where its branch folds back; 0 without a zone.
+    pub ranges: usize,
 }
 
 /// Longest edge of the lattice, in points, and the shortest: below that it has nothing but corners.
@@ -64,6 +68,9 @@ const LONGEST_EDGE: usize = 64;
 const SHORTEST_EDGE: usize = 3;
 /// Points that are computed and kept together.
 const PIECE: usize = 16;
+
+/// Of a point: its cost, what its best motion has of what is sought, and the ranges of its zone.
+type Computed = (f64, Option<f64>, usize);
 
 /// Cost of an infeasible point: above that of every feasible one.
 fn cost(problem: &Problem, outcome: &Result<Design, Infeasible>) -> f64 {
@@ -91,8 +98,8 @@ pub(super) struct Survey<'a> {
     pub watch: &'a dyn Watch,
     pub incumbent: &'a Incumbent<'a>,
     kept: OptionalMemory<'a>,
-    /// Scan windows of the budget that are left.
-    left: AtomicU64,
+    /// Scan windows of the budget that are left, of all surveys about the same points.
+    left: Arc<AtomicU64>,
 }
 
 impl<'a> Survey<'a> {
@@ -107,7 +114,18 @@ impl<'a> Survey<'a> {
             watch,
             incumbent,
             kept,
-            left: AtomicU64::new(watch.budget()),
+            left: Arc::new(AtomicU64::new(watch.budget())),
+        }
+    }
+
+    /// One of another problem about the same points, with the same budget.
+    pub(super) fn of_problem<'b>(&'b self, problem: &'b Problem) -> Survey<'b> {
+        Survey {
+            problem,
+            watch: self.watch,
+            incumbent: self.incumbent,
+            kept: None,
+            left: Arc::clone(&self.left),
         }
     }
 
@@ -147,24 +165,26 @@ impl<'a> Survey<'a> {
             })
         });
         let pairs = units.iter().zip(found);
-        let point = |(unit, (cost, value)): (&Vec<f64>, (f64, Option<f64>))| {
+        let point = |(unit, (cost, value, ranges)): (&Vec<f64>, Computed)| {
             self.watch.evaluated(value);
             // A recalled point has no design.
             if value.is_some() && self.incumbent.is_beaten_by(-cost) {
                 budget::within(u64::MAX, || self.compute(from_ref(unit)));
             }
             let unit = unit.clone();
-            Point { unit, cost }
+            Point { unit, cost, ranges }
         };
         Some(pairs.map(point).collect())
     }
 
-    /// The cost of each point, and what its best motion has of what is sought.
-    fn compute(&self, units: &[Vec<f64>]) -> Vec<(f64, Option<f64>)> {
+    /// What is computed of each point.
+    fn compute(&self, units: &[Vec<f64>]) -> Vec<Computed> {
         let values = units.iter().map(|unit| self.problem.axis_values(unit));
         let values: Vec<_> = values.collect();
-        let outcomes = self.problem.at_batch(&values).into_iter();
-        let found = outcomes.zip(units).map(|(outcome, unit)| {
+        let on_zone = |it: &Zoned<'_>| Ok((line_search::best(it), it.zone.ranges().len()));
+        let outcomes = self.problem.on_zones(&values, on_zone).into_iter();
+        let outcomes = outcomes.map(|it| it.unwrap_or_else(|lack| (Err(lack), 0)));
+        let found = outcomes.zip(units).map(|((outcome, ranges), unit)| {
             let cost = cost(self.problem, &outcome);
             let value = outcome.as_ref().ok();
             let value = value.map(|design| self.problem.sought_of(design));
@@ -173,7 +193,7 @@ impl<'a> Survey<'a> {
                 self.incumbent
                     .update(&Candidate { unit, design }, Rank::Motion);
             }
-            (cost, value)
+            (cost, value, ranges)
         });
         found.collect()
     }

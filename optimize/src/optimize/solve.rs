@@ -56,6 +56,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         interrupted = Some(Interrupted::Search);
     }
     let problem = &job.problem.with_deviations(solution.deviations);
+    let problem = &problem.on_range_of(&solution.found.design);
     let mut met = met(problem, &solution.found);
     if interrupt::requested() {
         interrupt::save();

@@ -122,7 +122,7 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
     let nearest = nearest.collect::<Result<Vec<_>, Failure>>()?;
     let sensitivities =
         sensitivities(&spread, nominal, &design.zone).map_err(anyhow::Error::from)?;
-    let motions = (nominal, problem.zone);
+    let motions = (nominal, &design.zone);
     let scatter = scatter(&spread.over(EVEN), motions, Effort::default(), watcher);
     let study = Study {
         slowest: slowest(&spread, nominal, &verdict).map_err(stopped)?,

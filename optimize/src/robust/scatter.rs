@@ -5,7 +5,7 @@ use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
-use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
+use softstop_dynamics::zone::{ZoneError, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Tolerances;
@@ -62,7 +62,7 @@ pub struct Scatter {
 /// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
 pub fn scatter(
     spread: &Tolerances,
-    (nominal, kind): (&Orbit, ZoneKind),
+    (nominal, zone): (&Orbit, &Zone),
     effort: Effort,
     watcher: Monitor<'_>,
 ) -> Result<Option<Scatter>, OrbitError> {
@@ -73,10 +73,12 @@ pub fn scatter(
     let known: Vec<Vec<f64>> = known.map(|index| sobol_point(index, dimensions)).collect();
     let guide = Surrogate::new(spread, nominal, &known)?;
     let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
-    let zones = find_zones(kind, &scenes, watcher).into_iter();
-    let ends: Result<Vec<_>, _> = zones
-        .map(|zone| zone.map(|zone| [zone.low.frequency, zone.high.frequency]))
-        .collect();
+    let zones = find_zones(zone.kind, &scenes, watcher).into_iter();
+    let ends = |other: Zone| {
+        let own = other.on_range(zone.range);
+        [own.low.frequency, own.high.frequency]
+    };
+    let ends: Result<Vec<_>, _> = zones.map(|zone| zone.map(ends)).collect();
     if watcher(0, 0).is_break() {
         return Err(OrbitError::Stopped);
     }

@@ -6,7 +6,6 @@ use std::ops::ControlFlow;
 use approx::assert_relative_eq;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone;
-use softstop_dynamics::zone::ZoneKind;
 use softstop_optimize::robust::{Effort, Estimate, indices, scatter, sensitivities};
 
 use super::{Outcome, press, shop, spread};
@@ -81,14 +80,10 @@ fn scatter_of_small_tolerances_is_that_of_the_slopes() -> Outcome {
         points: 256,
         sequences: 4,
     };
-    let found = scatter(
-        &tolerances,
-        (&nominal, ZoneKind::Hysteresis),
-        effort,
-        &unmonitored,
-    )?
-    .ok_or("indices")?;
-    let slopes = sensitivities(&tolerances, &nominal, &zone::hysteresis(&machine.scene)?)?;
+    let zone = zone::hysteresis(&machine.scene)?;
+    let found = scatter(&tolerances, (&nominal, &zone), effort, &unmonitored)?;
+    let found = found.ok_or("indices")?;
+    let slopes = sensitivities(&tolerances, &nominal, &zone)?;
     let squares: f64 = slopes.velocity.iter().map(|slope| slope * slope).sum();
     for (index, slope) in found.velocity.iter().zip(&slopes.velocity) {
         let known = slope * slope / squares;

@@ -1,7 +1,5 @@
 //! The catalogue of known stable orbits of a scene, and how motions are told to have arrived at them.
 
-use nalgebra::{Matrix2, Vector2};
-
 use super::Certainty;
 use crate::ensemble::MemberStatus;
 use crate::orbit::recurrence::{find_return, motion_size, state_distance};
@@ -81,16 +79,10 @@ impl AttractorCatalogue {
         })
     }
 
-    /// True if a mass is held where it is for all of a drive period, or creeps there ever more slowly: not one
-    /// orbit among others, but any place where dry friction holds it.
+    /// True if dry friction holds the mass at a state: not one orbit among others, but any place where it does.
     fn is_at_rest(&self, state: &Start) -> Result<bool, OrbitError> {
-        let map = StroboscopicMap::new(&self.scene, 1);
-        let passage = map.apply((*state).into())?;
-        let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
-        let gap = Start::new(state.position - passage.end.x, state.velocity);
-        let creep = state_distance(self.drive_frequency(), &gap, &Start::from(Vector2::zeros()));
-        let size = motion_size(self.drive_frequency(), [state]);
-        Ok((passage.monodromy.matrix - held).norm() <= SAME && creep <= SAME * size)
+        let passage = StroboscopicMap::new(&self.scene, 1).apply((*state).into())?;
+        Ok(passage.is_at_rest(state, self.drive_frequency()))
     }
 
     /// The known orbit that is the same as another one with these states, if there is one.

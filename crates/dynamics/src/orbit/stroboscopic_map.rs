@@ -2,10 +2,11 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::recurrence::{motion_size, state_distance};
 use super::{Monodromy, OrbitError};
 use crate::record_trajectory::record_trajectory;
-use crate::tolerance::ROUNDING_SHARE;
-use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Touch, Trajectory};
+use crate::tolerance::{ROUNDING_SHARE, SAME};
+use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Start, Touch, Trajectory};
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
 #[derive(Debug, Clone)]
@@ -31,6 +32,18 @@ pub struct Passage {
     pub rests: Vec<Instant>,
     /// All arcs and crossings of the way.
     pub(crate) trajectory: Trajectory,
+}
+
+impl Passage {
+    /// True if dry friction holds the mass at this state for all of the way, or lets it creep ever more slowly: the state
+    /// is one of many at which it holds. The drive's frequency, in rad/s, scales positions to velocities.
+    pub(crate) fn is_at_rest(&self, from: &Start, frequency: f64) -> bool {
+        let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
+        let gap = Start::new(from.position - self.end.x, from.velocity);
+        let creep = state_distance(frequency, &gap, &Start::REST);
+        let size = motion_size(frequency, [from]);
+        (self.monodromy.matrix - held).norm() <= SAME && creep <= SAME * size
+    }
 }
 
 impl StroboscopicMap {

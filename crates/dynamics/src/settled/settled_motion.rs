@@ -4,7 +4,7 @@ use std::f64::consts::LN_10;
 
 use crate::ensemble::Member;
 use crate::motion::MotionKind;
-use crate::orbit::recurrence::{find_settled_period, returns_to_rounding};
+use crate::orbit::recurrence::{find_settled_period, motion_size, returns_to_rounding};
 use crate::orbit::{ImpactPattern, Orbit, Regime, StroboscopicMap, smallest_period};
 use crate::tolerance::SAME;
 use nalgebra::Vector2;
@@ -158,11 +158,17 @@ impl SettledMotion {
         let Some(regime) = self.regime() else {
             return Ok(None);
         };
-        // Nothing chatters where nothing rebounds from a face.
         let scene = map.scene();
+        let passage = || map.apply(self.from.into());
+        let frequency = scene.excitation.frequency;
+        let is_slow = || self.from.velocity.abs() <= SAME * motion_size(frequency, [&self.from]);
+        if regime.impacts == 0 && is_slow() && passage()?.is_at_rest(&self.from, frequency) {
+            return Ok(Some(MotionKind::Rest));
+        }
+        // Nothing chatters where nothing rebounds from a face.
         let (lowest, highest) = scene.reach();
         let rests = match lowest.is_finite() || highest.is_finite() {
-            true => map.apply(self.from.into())?.rests,
+            true => passage()?.rests,
             false => Vec::new(),
         };
         let order = ImpactPattern::new(&self.instants, &rests, self.length, scene.period());

@@ -147,6 +147,7 @@ fn zone_from_start(
     };
     Ok(Zone {
         kind: ZoneKind::Hysteresis,
+        range: None,
         scene: scene.clone(),
         frequency_g0_below,
         frequency_g0,

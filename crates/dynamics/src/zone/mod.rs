@@ -52,6 +52,8 @@ pub enum ZoneKind {
 pub struct Zone {
     /// Which motions it holds.
     pub kind: ZoneKind,
+    /// Which of the ranges of the branch it holds, as [`Zone::on_range`] counts them; none if it holds the whole branch.
+    pub range: Option<usize>,
     /// The machine; the frequency of its drive plays no part.
     pub scene: CheckedScene,
     /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the stop.

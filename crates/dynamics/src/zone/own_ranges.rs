@@ -20,6 +20,23 @@ impl Zone {
         }
     }
 
+    /// The one of the [`Zone::ranges`] that is asked for, counted from the lower end of the branch; the last of fewer. The zone as it
+    /// is if none is asked for, or it has no several ones.
+    #[must_use]
+    pub fn on_range(self, range: Option<usize>) -> Self {
+        let mut ranges = match range {
+            Some(_) => self.ranges(),
+            None => Vec::new(),
+        };
+        match (range, ranges.len()) {
+            (Some(index), count @ 2..) => Self {
+                range,
+                ..ranges.swap_remove(index.min(count - 1))
+            },
+            _ => self,
+        }
+    }
+
     /// Of the [`Zone::ranges`] the one that holds an orbit of the zone's machine; none if it is an orbit of another branch.
     pub fn range_holding(&self, orbit: &Orbit) -> Option<Self> {
         let holds = |range: &Self| {

@@ -125,6 +125,7 @@ fn zone_about(
     };
     let zone = Zone {
         kind: ZoneKind::SingleImpact { between },
+        range: None,
         scene: scene.clone(),
         frequency_g0_below,
         frequency_g0,

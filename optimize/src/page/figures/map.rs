@@ -1,11 +1,10 @@
 //! The before-impact velocity over the drive's frequency and another parameter.
 
 use softstop::{Dimension, Parameter, Scene};
-use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, around, style};
-use softstop_dynamics::{Zone, parallel, zone};
+use softstop_dynamics::{Zone, parallel};
 
 use super::velocity;
 use crate::design::{Design, Problem, space};
@@ -63,7 +62,7 @@ fn map(
         machine.scene
     };
     let scenes: Vec<Scene> = (0..CELLS.1).map(at).collect();
-    let zones = zone::find_zones(problem.zone, &scenes, &interrupt::watch);
+    let zones = problem.zones_of(&scenes);
     let rows = parallel::map(&zones, |zone| Some(Motions::of(zone.as_ref().ok()?)));
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
     let borders = BORDERS.iter().zip(STROKES).enumerate();

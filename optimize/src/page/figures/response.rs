@@ -3,10 +3,9 @@
 use std::slice;
 
 use softstop::{Dimension, Machine, Parameter, Scene};
-use softstop_console::interrupt;
 use softstop_draw::{Axis, Layer, Mark, Panel, style};
 use softstop_dynamics::continuation::TestFunction;
-use softstop_dynamics::{Zone, parallel, zone};
+use softstop_dynamics::{Zone, parallel};
 
 use super::velocity;
 use crate::design::{Design, Problem};
@@ -42,7 +41,7 @@ pub fn response(
     let mut curves = motions.unstable(machine, "design, unstable", UNSTABLE);
     for it in references {
         let scenes = slice::from_ref(&it.machine.scene);
-        if let Ok(zone) = zone::find_zones(problem.zone, scenes, &interrupt::watch).remove(0) {
+        if let Ok(zone) = problem.zones_of(scenes).remove(0) {
             curves.extend(Motions::of(&zone).stable(&it.machine, &it.title(), BESIDE));
         }
     }
@@ -143,8 +142,7 @@ const ACROSS: usize = 240;
 /// one's own units; in pieces where one of them has none.
 fn bands(problem: &Problem, machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
     let scenes: Vec<Scene> = machines.iter().map(|it| it.scene.clone()).collect();
-    let zones = zone::find_zones(problem.zone, &scenes, &interrupt::watch);
-    let zones: Result<Vec<Zone>, _> = zones.into_iter().collect();
+    let zones: Result<Vec<Zone>, _> = problem.zones_of(&scenes).into_iter().collect();
     let (Ok(zones), Some(machine)) = (zones, machines.first()) else {
         return Vec::new();
     };
