@@ -307,6 +307,20 @@ fn chatter_is_called_chatter() {
     assert_eq!(chains[0].find_jumps(), []);
 }
 
+/// A mass that dry friction of the strip holds is at rest, not a motion without impacts.
+#[test]
+fn a_mass_held_by_friction_is_at_rest() {
+    let mut ratios = Ratios::loaded();
+    ratios.piercing.as_mut().expect("a strip").friction = 500.0;
+    for (position, is_held) in [(10.2, true), (0.0, false)] {
+        let mut plan = frequencies((1.15, 1.16), 2, 200);
+        plan.start = Start::new(position, 0.0);
+        for step in &run(&plan, vec![chain(ratios, Direction::Up)])[0].steps {
+            assert_eq!(step.motion == MotionKind::Rest, is_held, "{}", step.motion);
+        }
+    }
+}
+
 /// A state beyond a rigid stop, above or below or behind a spring, is put at rest on it, whatever its position rounds to.
 #[test]
 fn what_lies_beyond_a_rigid_stop_begins_at_rest_on_it() {
