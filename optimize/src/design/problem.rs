@@ -23,8 +23,8 @@ pub struct Problem {
     pub machine: Machine,
     /// Which motions are searched.
     pub zone: ZoneKind,
-    /// Which range of a zone whose branch folds back, as [`Zone::on_range`] counts them; none: the hardest motion of all of them
-    /// at each frequency.
+    /// Which range of a zone whose branch folds back, as [`Zone::on_range`](softstop_dynamics::Zone::on_range) counts
+    /// them; none: the hardest motion of all of them at each frequency.
     pub range: Option<usize>,
     /// Least distance M of s from 0 and 1, in [0, 0.5].
     pub margin: f64,
