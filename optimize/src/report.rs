@@ -224,7 +224,7 @@ impl OptimizeReport {
                 below(&self.rivals, &units),
             ),
             (
-                "Other ranges of stable z = 1, left out because they are no part of the zone",
+                "Other ranges of stable z = 1, which are no part of the design's zone",
                 below(&self.left_out, &units),
             ),
         ]);

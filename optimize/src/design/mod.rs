@@ -17,6 +17,7 @@ pub mod constraint;
 pub mod coordinates;
 pub mod cost;
 pub mod critical;
+mod design_search;
 mod differences;
 mod direct_search;
 mod distant_values;

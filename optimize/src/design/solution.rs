@@ -71,6 +71,13 @@ impl Problem {
 }
 
 impl Solution {
+    /// The problem whose design it is: with the deviations that it keeps, on its range of the zone.
+    pub fn problem(&self, stated: &Problem) -> Problem {
+        stated
+            .with_deviations(self.deviations)
+            .on_range_of(&self.found.design)
+    }
+
     /// Searches, looks beside, and goes on from what is better there.
     ///
     /// # Errors

@@ -199,8 +199,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         }
         outcome => outcome?,
     };
-    job.problem.deviations = outcome.solution.deviations;
-    job.problem = job.problem.on_range_of(outcome.design());
+    job.problem = outcome.solution.problem(&job.problem);
     if let Some(mut front) = outcome.solution.pareto.take() {
         outcome.go_on(|_| pareto::look_at_machines(&job, &mut front))?;
         outcome.solution.pareto = Some(front);

@@ -55,8 +55,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         interrupt::save();
         interrupted = Some(Interrupted::Search);
     }
-    let problem = &job.problem.with_deviations(solution.deviations);
-    let problem = &problem.on_range_of(&solution.found.design);
+    let problem = &solution.problem(&job.problem);
     let mut met = met(problem, &solution.found);
     if interrupt::requested() {
         interrupt::save();

@@ -5,7 +5,7 @@ use softstop_console::interrupt;
 use softstop_draw::Stroke;
 use softstop_dynamics::continuation::{Continuation, Direction, TestFunction};
 use softstop_dynamics::monitor::stop_if;
-use softstop_dynamics::zone::{Loss, loss_of_stability};
+use softstop_dynamics::zone::loss_of_stability;
 use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
 use super::figure::Curve;
@@ -30,8 +30,7 @@ const BETWEEN: u32 = 8;
 
 impl Motions {
     pub(super) fn of(zone: &Zone) -> Self {
-        let begins_at_g0 = zone.is_hysteresis() && zone.low.loss == Loss::FreeGrazing;
-        let (below, flip) = match begins_at_g0 {
+        let (below, flip) = match zone.begins_at_g0() {
             true => below(zone).unwrap_or_default(),
             false => {
                 let mut ends = [&zone.low, &zone.high].into_iter();

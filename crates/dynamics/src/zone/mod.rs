@@ -75,6 +75,11 @@ impl Zone {
         self.kind == ZoneKind::Hysteresis
     }
 
+    /// True if the zone begins where the motion without impacts grazes: a hysteresis zone but for its upper ranges.
+    pub fn begins_at_g0(&self) -> bool {
+        self.is_hysteresis() && self.low.loss == Loss::FreeGrazing
+    }
+
     /// The machine at a place s of the zone.
     pub fn scene_at(&self, share: f64) -> Scene {
         self.scene.at_frequency(self.frequency_at(share))

@@ -21,7 +21,7 @@ impl Zone {
     }
 
     /// The one of the [`Zone::ranges`] that is asked for, counted from the lower end of the branch; the last of fewer. The zone as it
-    /// is if none is asked for, or it has no several ones.
+    /// is if none is asked for, or it has one only.
     #[must_use]
     pub fn on_range(self, range: Option<usize>) -> Self {
         let mut ranges = match range {

@@ -37,7 +37,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         shares.named("share of starts"),
         integrity.named("local integrity measure"),
     ]);
-    let axis = match design.zone.is_hysteresis() {
+    let axis = match design.zone.begins_at_g0() {
         true => format!(
             "place s in the zone: 0 at g₀, 1 at {}",
             end_name(&design.zone.high)

@@ -3,9 +3,10 @@
 use std::slice;
 
 use softstop::{Dimension, Machine, Parameter, Scene};
+use softstop_console::interrupt;
 use softstop_draw::{Axis, Layer, Mark, Panel, style};
 use softstop_dynamics::continuation::TestFunction;
-use softstop_dynamics::{Zone, parallel};
+use softstop_dynamics::{Zone, parallel, zone};
 
 use super::velocity;
 use crate::design::{Design, Problem};
@@ -41,7 +42,7 @@ pub fn response(
     let mut curves = motions.unstable(machine, "design, unstable", UNSTABLE);
     for it in references {
         let scenes = slice::from_ref(&it.machine.scene);
-        if let Ok(zone) = problem.zones_of(scenes).remove(0) {
+        if let Ok(zone) = zone::find_zones(problem.zone, scenes, &interrupt::watch).remove(0) {
             curves.extend(Motions::of(&zone).stable(&it.machine, &it.title(), BESIDE));
         }
     }
