@@ -50,19 +50,19 @@ mod trajectory;
 
 pub use checked_scene::CheckedScene;
 pub use error::{MachineError, MotionError, SceneError};
-pub use flow::{Drive, HIGHEST_ORDER};
+pub use flow::{DriveAngle, HIGHEST_ORDER};
 pub use integrator::{
-    Arc, Begin, Clock, Contacts, Crossing, CrossingKind, Effort, Energy, Impact, Instant, Observer,
-    Rate, Rates, Sample, Simulation, Snapshot, Start, Work,
+    Arc, Clock, Contacts, Crossing, CrossingKind, Effort, Energy, Impact, InitialConditions,
+    Instant, Observer, Rate, Rates, Sample, Simulation, Snapshot, Start, Work,
 };
 pub use machine::{Machine, UnitSystem};
 pub use phases::PhaseKind;
 pub use scene::{
-    About, Allowed, Below, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop,
-    Scene, Slope, Stop, Ties, Units, Wall,
+    Allowed, Below, Dimension, Excitation, Parameter, ParameterInfo, Piercing, Ratios, Release,
+    RigidStop, Scene, Slope, Stop, Ties, Units, Wall,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
-pub use trajectory::{AppliedForce, KeptArc, Touch, Trajectory};
+pub use trajectory::{AppliedForce, ImpactEvent, KeptArc, Trajectory};
 
 pub use nalgebra;
 

@@ -1,7 +1,7 @@
 //! Time does not drift: the drive angle after very many periods, and the way there and back.
 
 use proptest::prelude::*;
-use softstop::{Clock, Drive, Instant};
+use softstop::{Clock, DriveAngle, Instant};
 use softstop_testing::{assert_near, assert_relative, cases};
 
 /// cos and sin of w t at 60 digits (mpmath), w and t taken as the exact doubles.
@@ -37,7 +37,7 @@ fn drive_angle_is_exact_after_a_hundred_million_periods() {
     for (frequency, time, expected_cos, expected_sin) in ANGLES {
         let clock = Clock::new(frequency, 0.0);
         let instant = clock.instant(time);
-        let Drive { cos, sin } = clock.drive(instant);
+        let DriveAngle { cos, sin } = clock.drive(instant);
         assert_near(cos, expected_cos, 4e-15);
         assert_near(sin, expected_sin, 4e-15);
         assert_relative(clock.time(instant), time, f64::EPSILON);

@@ -1,7 +1,7 @@
 //! The exact flow against 40-digit values (tests/reference/flow.py): every kind of root, zero and
 //! tiny stiffness, exact and near resonance, short and long times.
 
-use softstop::Drive;
+use softstop::DriveAngle;
 use softstop::internals::{ArcSolution, Departure, LinearLaw, Polynomial};
 use softstop_testing::reference::{FLOW, number};
 
@@ -27,12 +27,12 @@ fn flow_agrees_with_forty_digits() {
         let departure = Departure {
             position: get("position"),
             velocity: get("velocity"),
-            drive: Drive::at(get("drive_angle")),
+            drive: DriveAngle::at(get("drive_angle")),
             push: Polynomial::linear(get("constant"), get("ramp")),
             acceleration: None,
         };
         let elapsed = get("elapsed");
-        let drive = Drive::at(get("drive_angle") + w * elapsed);
+        let drive = DriveAngle::at(get("drive_angle") + w * elapsed);
         let (x, v) = ArcSolution::new(&flow, departure).state_at(elapsed, drive);
         let checks = [
             (x, "expected_position", "position_sensitivity"),

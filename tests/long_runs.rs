@@ -2,7 +2,7 @@
 //! nor the motion loses accuracy.
 
 use softstop::internals::{Motion, samples};
-use softstop::{Begin, Clock, Ratios, Scene, Simulation, Start, Stop};
+use softstop::{Clock, InitialConditions, Ratios, Scene, Simulation, Start, Stop};
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{assert_near, hertz};
 
@@ -101,7 +101,8 @@ fn a_motion_stays_on_its_orbit_for_a_hundred_million_periods() {
 fn late_communication_points_are_taken_as_they_are() {
     let scene = Ratios::unloaded().scene().expect("valid");
     let begin = 1e8 * scene.period();
-    let mut machine = Simulation::new(&scene, Begin::from(start()).at_time(begin)).expect("valid");
+    let mut machine =
+        Simulation::new(&scene, InitialConditions::from(start()).at_time(begin)).expect("valid");
     let clock = Clock::new(scene.excitation.frequency, 0.0);
     let mut motion = Motion::new(
         &scene.check().expect("valid"),

@@ -2,7 +2,7 @@
 //! over-represented, against dense sampling of an independent step-by-step evaluation.
 
 use proptest::prelude::*;
-use softstop::{Clock, Drive, PhaseKind, Piercing, Ratios, Scene, Start, Trajectory};
+use softstop::{Clock, DriveAngle, PhaseKind, Piercing, Ratios, Scene, Start, Trajectory};
 use softstop_testing::{Meets, cases};
 
 /// Classical Runge-Kutta in steps so small that its error is far below the margin that is looked
@@ -217,7 +217,7 @@ fn assert_arcs_stay_in_their_layers(
         for k in 1..200 {
             let elapsed = arc.duration * f64::from(k) / 200.0;
             let angle = scene.excitation.frequency * (arc.start.offset + elapsed);
-            let (x, v) = arc.course.state_at(elapsed, Drive::at(angle));
+            let (x, v) = arc.course.state_at(elapsed, DriveAngle::at(angle));
             let room = 1e-12 * (1.0 + x.abs());
             prop_assert!(
                 x >= low - room && x <= high + room,

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use serde::Serialize;
-use softstop::{Begin, Effort, MotionError, Scene, Simulation, Snapshot, Start};
+use softstop::{Effort, InitialConditions, MotionError, Scene, Simulation, Snapshot, Start};
 use softstop_testing::{cases, loaded, machines, start_below};
 
 fn to_bytes(value: &impl Serialize) -> Vec<u8> {
@@ -40,7 +40,7 @@ proptest! {
         steps in 1..40u32,
     ) {
         let start = start_below(&scene, depth, velocity);
-        let Ok(mut machine) = Simulation::new(&scene, Begin::from(start).at_time(0.3)) else {
+        let Ok(mut machine) = Simulation::new(&scene, InitialConditions::from(start).at_time(0.3)) else {
             return Ok(());
         };
         let step = 0.37 * scene.period();

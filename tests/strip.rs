@@ -1,8 +1,8 @@
 //! The strip: half pierced it is met again, pierced it counts once per stroke.
 
 use softstop::{
-    Begin, Crossing, CrossingKind, PhaseKind, Piercing, Ratios, Scene, Simulation, Start,
-    Trajectory,
+    Crossing, CrossingKind, InitialConditions, PhaseKind, Piercing, Ratios, Scene, Simulation,
+    Start, Trajectory,
 };
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{assert_near, loaded, piercing};
@@ -86,7 +86,8 @@ fn a_start_without_material_meets_no_strip() {
     let scene = loaded();
     let start = Start::new(scene.clearance + 0.2, 0.5);
     for (fed, phase) in [(true, PhaseKind::Pierce), (false, PhaseKind::Gap)] {
-        let mut machine = Simulation::new(&scene, Begin::from(start).fed(fed)).expect("valid");
+        let mut machine =
+            Simulation::new(&scene, InitialConditions::from(start).fed(fed)).expect("valid");
         assert_eq!(machine.sample().phase, phase);
         machine.advance(20.0 * scene.period()).expect("bounded");
         assert_eq!(machine.pierce_count() > 0, fed);

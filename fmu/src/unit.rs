@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::sync::OnceLock;
 
-use softstop::{Begin, Effort, MotionError, SceneError, Simulation};
+use softstop::{Effort, InitialConditions, MotionError, SceneError, Simulation};
 use softstop_fmi::{
     About, Advance, Block, Derivatives, Events, HIGHEST_ORDER, Known, Outcome, Unit,
 };
@@ -83,7 +83,9 @@ impl Unit for Machine {
     fn begin(values: &[f64], time: f64) -> Outcome<Self> {
         let values = StartValues::of(values);
         let fed = values.is_fed();
-        let begin = Begin::from(values.start()).at_time(time).fed(fed);
+        let begin = InitialConditions::from(values.start())
+            .at_time(time)
+            .fed(fed);
         let scene = values.scene();
         let simulation = Simulation::new(&scene, begin).map_err(in_names)?;
         let mut machine = Self::new(simulation, More::default());

@@ -1,13 +1,13 @@
 //! The scan of an arc for its first crossing, window by window.
 
-use super::first_rise::{GuardPolynomial, Point, Verdict, judge_interval};
+use super::first_rise::{GuardPoint, GuardPolynomial, Verdict, judge_interval};
 use super::guard::{Guard, earliest_rise};
-use super::node_derivatives::{GuardEnds, Jets};
+use super::node_derivatives::{GuardEnds, NodeDerivatives};
 use super::single_rise::locate_single_rise;
 use super::step_crossing::crossing_on_step;
-use super::{Found, NextEvent};
+use super::{FoundCrossing, NextEvent};
 use crate::budget;
-use crate::flow::{ArcSolution, Node, Window};
+use crate::flow::{ArcSolution, ScanNode, ScanWindow};
 
 /// Windows between two looks at whether the guards can be reached at all.
 const WINDOWS_PER_LOOK: u32 = 8;
@@ -16,7 +16,12 @@ const WINDOWS_PER_LOOK: u32 = 8;
 ///
 /// The windows are laid from the departure, so the answer does not depend on how a search is
 /// divided into calls. Where a [`budget`] is spent on the way, it means nothing.
-pub fn first_crossing(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) -> NextEvent {
+pub fn first_crossing(
+    course: &ArcSolution,
+    guards: &[Guard],
+    node: ScanNode,
+    until: f64,
+) -> NextEvent {
     let begin = node.elapsed;
     let outlook = search_arc(course, guards, node, until);
     let reached = match &outlook {
@@ -32,7 +37,7 @@ pub fn first_crossing(course: &ArcSolution, guards: &[Guard], node: Node, until:
 }
 
 /// The first crossing of an arc, as far as it is searched; what that costs is not counted.
-fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) -> NextEvent {
+fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64) -> NextEvent {
     if let Some(segment) = course.taylor_step() {
         return crossing_on_step(segment, guards, node);
     }
@@ -43,7 +48,7 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) ->
     let window = course.flow.window;
     let watches_position = guards.iter().all(Guard::asks_for_position);
     let mut node = node;
-    let mut reached: Option<Jets> = None;
+    let mut reached: Option<NodeDerivatives> = None;
     let mut looked = node.elapsed;
     while node.elapsed < until {
         if node.elapsed > looked + f64::from(WINDOWS_PER_LOOK) * window {
@@ -61,7 +66,7 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) ->
             }
             if let Some((next, bound)) = doubtful {
                 let (left, right) = (&node, &next);
-                match scan.single_rise_in_window(&Window { left, right, bound }) {
+                match scan.single_rise_in_window(&ScanWindow { left, right, bound }) {
                     Some(Some(found)) => return NextEvent::Crossing(found),
                     Some(None) => {
                         node = next;
@@ -73,8 +78,8 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) ->
         }
         budget::charge(budget::JETS);
         let known = reached.filter(|jets| jets.node.elapsed == node.elapsed);
-        let left = known.unwrap_or_else(|| Jets::new(course, node));
-        let right = Jets::new(
+        let left = known.unwrap_or_else(|| NodeDerivatives::new(course, node));
+        let right = NodeDerivatives::new(
             course,
             ahead.unwrap_or_else(|| course.next_node(&left.node)),
         );
@@ -105,7 +110,7 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    fn guards_are_out_of_reach(&self, node: &Node) -> bool {
+    fn guards_are_out_of_reach(&self, node: &ScanNode) -> bool {
         self.guards
             .iter()
             .all(|guard| guard.is_out_of_reach(self.course, node))
@@ -113,7 +118,7 @@ impl Scan<'_> {
 
     /// True if all guards, which ask for nothing but the position, stay below zero over a window.
     #[inline(always)]
-    fn stays_short(&self, window: &Window<'_>) -> bool {
+    fn stays_short(&self, window: &ScanWindow<'_>) -> bool {
         let span = window.right.elapsed - window.left.elapsed;
         for guard in self.guards {
             let ends = GuardEnds::of_window(guard, window);
@@ -126,11 +131,11 @@ impl Scan<'_> {
 
     /// Whether the only guard, which asks for nothing but the position, rises in a window, and where; none if it takes
     /// more to tell.
-    fn single_rise_in_window(&self, window: &Window<'_>) -> Option<Option<Found>> {
+    fn single_rise_in_window(&self, window: &ScanWindow<'_>) -> Option<Option<FoundCrossing>> {
         let [guard] = self.guards else {
             return None;
         };
-        let &Window { left, right, bound } = window;
+        let &ScanWindow { left, right, bound } = window;
         let span = right.elapsed - left.elapsed;
         let size = bound + right.position + right.velocity;
         if span > self.course.flow.reach * 1.000001 || !size.is_finite() {
@@ -148,17 +153,17 @@ impl Scan<'_> {
     fn single_rise(
         &self,
         (index, guard): (usize, &Guard),
-        nodes: (&Node, &Node),
-        ends: (Point, Point),
+        nodes: (&ScanNode, &ScanNode),
+        ends: (GuardPoint, GuardPoint),
         (bound, rounding): (f64, f64),
-    ) -> Option<Option<Found>> {
+    ) -> Option<Option<FoundCrossing>> {
         match judge_interval(ends.0, ends.1, bound, rounding) {
             Verdict::NoRise => Some(None),
             Verdict::Unknown => None,
             _ => {
                 let (elapsed, position, velocity) =
                     locate_single_rise(self.course, guard, nodes, ends)?;
-                Some(Some(Found {
+                Some(Some(FoundCrossing {
                     elapsed,
                     guard: index,
                     position,
@@ -170,7 +175,12 @@ impl Scan<'_> {
 
     /// True if all guards are below zero between two nodes, by the bound that settles most windows.
     #[inline(always)]
-    fn stays_below(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+    fn stays_below(
+        &self,
+        left: &NodeDerivatives,
+        right: &NodeDerivatives,
+        bounds: (f64, f64),
+    ) -> bool {
         let span = right.node.elapsed - left.node.elapsed;
         for guard in self.guards {
             let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
@@ -182,7 +192,13 @@ impl Scan<'_> {
     }
 
     /// True if the guard cannot rise through zero between two nodes.
-    fn cannot_rise(&self, guard: &Guard, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+    fn cannot_rise(
+        &self,
+        guard: &Guard,
+        left: &NodeDerivatives,
+        right: &NodeDerivatives,
+        bounds: (f64, f64),
+    ) -> bool {
         let span = right.node.elapsed - left.node.elapsed;
         let ends = GuardEnds::new(guard, left, right);
         let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
@@ -194,7 +210,7 @@ impl Scan<'_> {
     #[inline(always)]
     fn guard_stays_below(
         &self,
-        (guard, left): (&Guard, &Jets),
+        (guard, left): (&Guard, &NodeDerivatives),
         (ends, bound): (&GuardEnds, f64),
         (span, bounds): (f64, (f64, f64)),
     ) -> bool {
@@ -207,7 +223,12 @@ impl Scan<'_> {
 
     /// The first crossing between two nodes, by halving down to the reach of a Taylor polynomial.
     #[inline(never)]
-    fn search_by_halving(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+    fn search_by_halving(
+        &self,
+        left: &NodeDerivatives,
+        right: &NodeDerivatives,
+        bounds: (f64, f64),
+    ) -> Option<FoundCrossing> {
         let span = right.node.elapsed - left.node.elapsed;
         let half = left.node.elapsed + 0.5 * span;
         let halves = half > left.node.elapsed && half < right.node.elapsed;
@@ -221,16 +242,21 @@ impl Scan<'_> {
         if !budget::charge(budget::NODE) {
             return None;
         }
-        let middle = Jets::new(self.course, self.course.node_at(half));
+        let middle = NodeDerivatives::new(self.course, self.course.node_at(half));
         let bounds = self.course.flow.modes.solution_bounds(0.5 * span);
         self.search_by_halving(left, &middle, bounds)
             .or_else(|| self.search_by_halving(&middle, right, bounds))
     }
 
     /// The first crossing within the reach of a Taylor polynomial. Single rises, as the nodes prove them, need none.
-    fn search_window(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+    fn search_window(
+        &self,
+        left: &NodeDerivatives,
+        right: &NodeDerivatives,
+        bounds: (f64, f64),
+    ) -> Option<FoundCrossing> {
         let span = right.node.elapsed - left.node.elapsed;
-        let mut first: Option<Found> = None;
+        let mut first: Option<FoundCrossing> = None;
         for (index, guard) in self.guards.iter().enumerate() {
             let ends = GuardEnds::new(guard, left, right);
             let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
@@ -260,7 +286,12 @@ impl Scan<'_> {
 
     /// The first crossing between two nodes on the Taylor polynomial about the left one.
     #[inline(never)]
-    fn search_polynomial(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+    fn search_polynomial(
+        &self,
+        left: &NodeDerivatives,
+        right: &NodeDerivatives,
+        bounds: (f64, f64),
+    ) -> Option<FoundCrossing> {
         budget::charge(budget::POLYNOMIAL);
         let span = right.node.elapsed - left.node.elapsed;
         let node = left.node;
@@ -279,7 +310,7 @@ impl Scan<'_> {
         };
         earliest_rise(self.guards, rise).map(|(guard, after)| {
             let (position, velocity) = taylor.state_after(after);
-            Found {
+            FoundCrossing {
                 elapsed: node.elapsed + after,
                 guard,
                 position,

@@ -20,7 +20,7 @@ pub(super) struct GuardPolynomial<'a> {
 
 /// A function at one point: its value and first derivative.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct GuardPoint {
     pub at: f64,
     pub value: f64,
     pub rate: f64,
@@ -44,13 +44,18 @@ const DEEPEST: u32 = 60;
 
 impl GuardPolynomial<'_> {
     /// The first s between two points at which g rises from <= 0 to > 0.
-    pub fn first_rise(&self, left: Point, right: Point) -> Option<f64> {
+    pub fn first_rise(&self, left: GuardPoint, right: GuardPoint) -> Option<f64> {
         let (low, high) = self.isolate_rise(left, right, 0)?;
         Some(self.rise_between(low, high))
     }
 
     /// An interval on which g rises through zero once, the first between two points, by halving.
-    fn isolate_rise(&self, left: Point, right: Point, depth: u32) -> Option<(Point, Point)> {
+    fn isolate_rise(
+        &self,
+        left: GuardPoint,
+        right: GuardPoint,
+        depth: u32,
+    ) -> Option<(GuardPoint, GuardPoint)> {
         match judge_interval(left, right, self.bound, self.rounding) {
             Verdict::NoRise => None,
             Verdict::Rise => Some((left, right)),
@@ -70,7 +75,7 @@ impl GuardPolynomial<'_> {
     }
 
     /// The point between two others at which g' changes its sign, once.
-    fn extremum_between(&self, left: Point, right: Point) -> Point {
+    fn extremum_between(&self, left: GuardPoint, right: GuardPoint) -> GuardPoint {
         let sign = if left.rate > 0.0 { -1.0 } else { 1.0 };
         let derivative = self.derivative_coefficients();
         let at = bracketed_newton(
@@ -86,7 +91,7 @@ impl GuardPolynomial<'_> {
     }
 
     /// The zero through which g rises between two points.
-    fn rise_between(&self, low: Point, high: Point) -> f64 {
+    fn rise_between(&self, low: GuardPoint, high: GuardPoint) -> f64 {
         let mut terms = self.coefficients.iter().enumerate();
         if low.at == 0.0
             && let Some((order, leading)) = terms.find(|(_, c)| **c != 0.0)
@@ -113,14 +118,19 @@ impl GuardPolynomial<'_> {
     }
 
     /// g and its rate at a place.
-    pub fn point_at(&self, at: f64) -> Point {
+    pub fn point_at(&self, at: f64) -> GuardPoint {
         let (value, rate) = evaluate(self.coefficients, at);
-        Point { at, value, rate }
+        GuardPoint { at, value, rate }
     }
 }
 
 /// What is proven of g between two points, with |g''''| <= `bound`.
-pub(super) fn judge_interval(left: Point, right: Point, bound: f64, rounding: f64) -> Verdict {
+pub(super) fn judge_interval(
+    left: GuardPoint,
+    right: GuardPoint,
+    bound: f64,
+    rounding: f64,
+) -> Verdict {
     let span = right.at - left.at;
     let third = span / 3.0;
     let square = span * span;
@@ -159,7 +169,12 @@ pub(super) fn judge_interval(left: Point, right: Point, bound: f64, rounding: f6
 
 /// What the sign of the curvature proves of g between two points, by the slopes of the interpolant and the error of
 /// its curvature.
-fn judge_by_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -> Verdict {
+fn judge_by_curvature(
+    left: GuardPoint,
+    right: GuardPoint,
+    slopes: [f64; 3],
+    slack: f64,
+) -> Verdict {
     let half = 0.5 * (right.at - left.at);
     let curvatures = [
         (slopes[1] - slopes[0]) / half,
@@ -190,7 +205,7 @@ fn judge_by_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -
 }
 
 /// About where g rises through zero between two points, if they tell.
-pub(super) fn guess_rise(low: Point, high: Point) -> Option<f64> {
+pub(super) fn guess_rise(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     if low.rate > 0.0 {
         zero_by_inverse_hermite(low, high)
     } else {
@@ -199,7 +214,7 @@ pub(super) fn guess_rise(low: Point, high: Point) -> Option<f64> {
 }
 
 /// Where the cubic through both ends, taken as position over value, passes zero.
-fn zero_by_inverse_hermite(low: Point, high: Point) -> Option<f64> {
+fn zero_by_inverse_hermite(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     let rise = high.value - low.value;
     let span = high.at - low.at;
     let u = -low.value / rise;
@@ -211,7 +226,7 @@ fn zero_by_inverse_hermite(low: Point, high: Point) -> Option<f64> {
 }
 
 /// A rise if the values at the ends have opposite signs, where at most one is possible.
-fn rise_by_ends(left: Point, right: Point) -> Verdict {
+fn rise_by_ends(left: GuardPoint, right: GuardPoint) -> Verdict {
     if bracket_of_rise(left, right).is_some() {
         Verdict::Rise
     } else {
@@ -220,7 +235,7 @@ fn rise_by_ends(left: Point, right: Point) -> Verdict {
 }
 
 /// Both points, if g rises from <= 0 to > 0 between them.
-fn bracket_of_rise(left: Point, right: Point) -> Option<(Point, Point)> {
+fn bracket_of_rise(left: GuardPoint, right: GuardPoint) -> Option<(GuardPoint, GuardPoint)> {
     (left.value <= 0.0 && right.value > 0.0).then_some((left, right))
 }
 
@@ -233,7 +248,7 @@ fn min_and_max(values: &[f64]) -> (f64, f64) {
 }
 
 /// The later zero of the parabola through both values with the first slope.
-fn zero_of_parabola(low: Point, high: Point) -> Option<f64> {
+fn zero_of_parabola(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     let span = high.at - low.at;
     let curvature = (high.value - low.value - low.rate * span) / (span * span);
     let root = (low.rate * low.rate - 4.0 * curvature * low.value).sqrt();

@@ -1,6 +1,6 @@
 //! What ends a phase: a linear function of state and push that rises through zero.
 
-use crate::flow::{ArcSolution, DEGREE, Node, Taylor};
+use crate::flow::{ArcSolution, DEGREE, ScanNode, TaylorPolynomials};
 
 /// g = `position` x + `velocity` v + `push` q - `level`; the event is g rising through zero.
 ///
@@ -118,7 +118,7 @@ impl Guard {
     }
 
     /// True if g stays below zero for ever after `node`.
-    pub(crate) fn is_out_of_reach(&self, course: &ArcSolution, node: &Node) -> bool {
+    pub(crate) fn is_out_of_reach(&self, course: &ArcSolution, node: &ScanNode) -> bool {
         if self.velocity != 0.0 {
             return false;
         }
@@ -136,7 +136,7 @@ impl Guard {
     }
 
     /// Taylor coefficients of g about the expansion point.
-    pub(crate) fn taylor_coefficients(&self, taylor: &Taylor) -> [f64; DEGREE + 1] {
+    pub(crate) fn taylor_coefficients(&self, taylor: &TaylorPolynomials) -> [f64; DEGREE + 1] {
         let (x, q) = (&taylor.position, &taylor.push);
         let mut g: [f64; DEGREE + 1] =
             std::array::from_fn(|n| self.position * x[n] + self.push * q[n]);

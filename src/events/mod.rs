@@ -17,11 +17,11 @@ pub(crate) use node_derivatives::is_clear_near_start;
 
 use serde::{Deserialize, Serialize};
 
-use crate::flow::Node;
+use crate::flow::ScanNode;
 
 /// A crossing found on a course.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct FoundCrossing {
     /// Time since departure in s.
     pub elapsed: f64,
     /// Which of the guards it is.
@@ -36,13 +36,13 @@ pub struct Found {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum NextEvent {
     /// This crossing is the first.
-    Crossing(Found),
+    Crossing(FoundCrossing),
     /// There is none up to the node that the search has reached.
-    ClearUntil(Node),
+    ClearUntil(ScanNode),
     /// There is none up to the end of the course, this many seconds after departure.
     Ends(f64),
     /// There is none at all.
     Never,
     /// The motion left the range of floating-point numbers.
-    Unbounded(Node),
+    Unbounded(ScanNode),
 }

@@ -1,13 +1,13 @@
 //! Derivatives at a scan node and the bounds that follow from them over the next window.
 
-use super::first_rise::Point;
+use super::first_rise::GuardPoint;
 use super::guard::Guard;
-use crate::flow::{ArcSolution, LinearLaw, Node, Window};
+use crate::flow::{ArcSolution, LinearLaw, ScanNode, ScanWindow};
 
 /// Derivatives of position (of order 0 to 6) and push (0 to 4) at a node.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jets {
-    pub node: Node,
+pub(super) struct NodeDerivatives {
+    pub node: ScanNode,
     position: [f64; 7],
     push: [f64; 5],
     /// Amplitude of the drive on the mass, in m/s^2: none while it is held.
@@ -24,9 +24,9 @@ pub(super) struct GuardEnds {
     pub right: (f64, f64),
 }
 
-impl Jets {
+impl NodeDerivatives {
     #[inline(always)]
-    pub fn new(course: &ArcSolution, node: Node) -> Self {
+    pub fn new(course: &ArcSolution, node: ScanNode) -> Self {
         let flow = &course.flow;
         let (constant, ramp) = course.linear_push_at(node.elapsed);
         let (w, a) = (flow.frequency, flow.amplitude);
@@ -93,7 +93,7 @@ impl Jets {
         )
     }
 
-    /// Bound on |g''| over `span` seconds from this node, as [`Jets::bound_g4`] is one on |g''''|.
+    /// Bound on |g''| over `span` seconds from this node, as [`NodeDerivatives::bound_g4`] is one on |g''''|.
     /// Under heavy damping it is the sharper one: high derivatives drown in the rounding of the damper's force.
     pub fn bound_g2(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
@@ -144,8 +144,8 @@ impl Jets {
 impl GuardEnds {
     /// Ends of a window for a guard that depends on nothing but the position.
     #[inline(always)]
-    pub fn of_window(guard: &Guard, window: &Window<'_>) -> Self {
-        let end = |node: &Node| {
+    pub fn of_window(guard: &Guard, window: &ScanWindow<'_>) -> Self {
+        let end = |node: &ScanNode| {
             let value = guard.position * node.position - guard.level;
             (value, guard.position * node.velocity)
         };
@@ -156,7 +156,7 @@ impl GuardEnds {
     }
 
     #[inline(always)]
-    pub fn new(guard: &Guard, left: &Jets, right: &Jets) -> Self {
+    pub fn new(guard: &Guard, left: &NodeDerivatives, right: &NodeDerivatives) -> Self {
         Self {
             left: left.guard_value_and_rate(guard),
             right: right.guard_value_and_rate(guard),
@@ -164,8 +164,8 @@ impl GuardEnds {
     }
 
     /// The ends of a window of length `span`.
-    pub fn points(&self, span: f64) -> (Point, Point) {
-        let at = |at, (value, rate)| Point { at, value, rate };
+    pub fn points(&self, span: f64) -> (GuardPoint, GuardPoint) {
+        let at = |at, (value, rate)| GuardPoint { at, value, rate };
         (at(0.0, self.left), at(span, self.right))
     }
 
@@ -211,7 +211,7 @@ pub(crate) fn is_clear_near_start(course: &ArcSolution, guards: &[Guard], until:
     if !course.is_bounded() {
         return false;
     }
-    let jets = Jets::new(course, course.start_node());
+    let jets = NodeDerivatives::new(course, course.start_node());
     let stays = |guard: &Guard| guard.push == 0.0 && jets.stays_below(&course.flow, guard, until);
     guards.iter().all(stays)
 }

@@ -3,10 +3,10 @@
 //! The jets of the nearer node tell about where it is; a state evaluated there lies so close to it that a
 //! short Taylor polynomial is exact.
 
-use super::first_rise::{Point, guess_rise};
+use super::first_rise::{GuardPoint, guess_rise};
 use super::guard::Guard;
-use super::node_derivatives::Jets;
-use crate::flow::{ArcSolution, Node};
+use super::node_derivatives::NodeDerivatives;
+use crate::flow::{ArcSolution, ScanNode};
 
 /// Share of a flow's reach over which a polynomial of degree 5 is exact.
 const SHORT_STEP_SHARE: f64 = 1.0 / 512.0;
@@ -18,8 +18,8 @@ const MAX_EVALUATIONS: usize = 4;
 pub(super) fn locate_single_rise(
     course: &ArcSolution,
     guard: &Guard,
-    (left, right): (&Node, &Node),
-    (low, high): (Point, Point),
+    (left, right): (&ScanNode, &ScanNode),
+    (low, high): (GuardPoint, GuardPoint),
 ) -> Option<(f64, f64, f64)> {
     let within = |at: f64| at > low.at && at < high.at;
     let start = left.elapsed;
@@ -32,7 +32,7 @@ pub(super) fn locate_single_rise(
     } else {
         (low.at, left)
     };
-    let series = Jets::new(course, *nearer).guard_series(guard);
+    let series = NodeDerivatives::new(course, *nearer).guard_series(guard);
     let mut at = origin + zero_by_newton(&series, first - origin, SHORT_STEP_SHARE * reach)?;
     for _ in 0..MAX_EVALUATIONS {
         if !within(at) {
@@ -66,7 +66,7 @@ pub(super) fn locate_single_rise(
 /// A state beside the rise: soon after the departure as what has changed since, so that what is small against
 /// the position keeps its digits.
 struct StateNearRise {
-    near: Jets,
+    near: NodeDerivatives,
     /// The guard there.
     series: [f64; 6],
     /// Position and velocity from which it is told.
@@ -81,7 +81,7 @@ impl StateNearRise {
         if start == 0.0
             && let Some((node, change)) = course.node_near_start(at)
         {
-            let near = Jets::new(course, node);
+            let near = NodeDerivatives::new(course, node);
             let mut series = near.guard_series(guard);
             let from = (course.departure.position, course.departure.velocity);
             let begin = guard.value_at(from.0, from.1);
@@ -93,7 +93,7 @@ impl StateNearRise {
                 change,
             };
         }
-        let near = Jets::new(course, course.node_at(start + at));
+        let near = NodeDerivatives::new(course, course.node_at(start + at));
         Self {
             series: near.guard_series(guard),
             from: (near.node.position, near.node.velocity),

@@ -2,12 +2,16 @@
 
 use super::first_rise::GuardPolynomial;
 use super::guard::{Guard, earliest_rise};
-use super::{Found, NextEvent};
-use crate::flow::{DEGREE, Node, TaylorStep, value};
+use super::{FoundCrossing, NextEvent};
+use crate::flow::{DEGREE, ScanNode, TaylorStep, value};
 
 /// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
 /// the coefficients of the polynomial, which is the motion to round-off.
-pub(super) fn crossing_on_step(segment: &TaylorStep, guards: &[Guard], node: Node) -> NextEvent {
+pub(super) fn crossing_on_step(
+    segment: &TaylorStep,
+    guards: &[Guard],
+    node: ScanNode,
+) -> NextEvent {
     let (from, to) = (segment.sigma_after(node.elapsed), segment.reach);
     let (position, velocity) = segment.last_state();
     let finite = position.is_finite() && velocity.is_finite();
@@ -35,7 +39,7 @@ pub(super) fn crossing_on_step(segment: &TaylorStep, guards: &[Guard], node: Nod
         None => NextEvent::Ends(segment.end),
         Some((guard, sigma)) => {
             let (position, velocity) = segment.state_at(sigma);
-            NextEvent::Crossing(Found {
+            NextEvent::Crossing(FoundCrossing {
                 elapsed: segment.time_at_sigma(sigma),
                 guard,
                 position,

@@ -3,7 +3,7 @@
 mod operations;
 mod parser;
 
-use operations::Step;
+use operations::Instruction;
 pub use operations::{Differentiated, chained};
 use parser::Parser;
 
@@ -13,7 +13,7 @@ const MAX_LENGTH: usize = 1000;
 /// An expression as the steps of a stack machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
-    steps: Vec<Step>,
+    steps: Vec<Instruction>,
     names: Vec<String>,
 }
 
@@ -33,7 +33,7 @@ impl Expression {
     /// The expression that is a number.
     pub(crate) fn constant(value: f64) -> Self {
         Self {
-            steps: vec![Step::Number(value)],
+            steps: vec![Instruction::Number(value)],
             names: Vec::new(),
         }
     }
@@ -53,16 +53,16 @@ impl Expression {
         for step in &self.steps {
             let last = stack.pop();
             match (*step, last) {
-                (Step::Unary(of), Some(last)) => stack.push(of.apply(&last)),
-                (Step::Binary(of), Some(last)) => {
+                (Instruction::Unary(of), Some(last)) => stack.push(of.apply(&last)),
+                (Instruction::Binary(of), Some(last)) => {
                     let first = stack.pop();
                     stack.extend(first.map(|first| of.apply(&first, &last)));
                 }
                 (step, last) => {
                     stack.extend(last);
                     stack.push(match step {
-                        Step::Number(number) => constant(number),
-                        Step::Name(index) => {
+                        Instruction::Number(number) => constant(number),
+                        Instruction::Name(index) => {
                             let mut named = constant(values[index]);
                             named.by[index] = 1.0;
                             named

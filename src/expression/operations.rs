@@ -11,7 +11,7 @@ pub struct Differentiated {
 
 /// A step of a stack machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Step {
+pub enum Instruction {
     Number(f64),
     /// A named value, by its index.
     Name(usize),

@@ -8,22 +8,22 @@
 //! atom    = number | name | "(" sum ")" | function "(" sum { "," sum } ")"
 //! ```
 
-use super::operations::{Binary, Step, Unary};
+use super::operations::{Binary, Instruction, Unary};
 
 /// The functions that an expression may call.
-const FUNCTIONS: [(&str, Step); 6] = [
-    ("abs", Step::Unary(Unary::Abs)),
-    ("exp", Step::Unary(Unary::Exp)),
-    ("ln", Step::Unary(Unary::Ln)),
-    ("max", Step::Binary(Binary::Max)),
-    ("min", Step::Binary(Binary::Min)),
-    ("sqrt", Step::Unary(Unary::Sqrt)),
+const FUNCTIONS: [(&str, Instruction); 6] = [
+    ("abs", Instruction::Unary(Unary::Abs)),
+    ("exp", Instruction::Unary(Unary::Exp)),
+    ("ln", Instruction::Unary(Unary::Ln)),
+    ("max", Instruction::Binary(Binary::Max)),
+    ("min", Instruction::Binary(Binary::Min)),
+    ("sqrt", Instruction::Unary(Unary::Sqrt)),
 ];
 
 /// Reads an expression from left to right.
 pub struct Parser<'a> {
     rest: &'a str,
-    steps: Vec<Step>,
+    steps: Vec<Instruction>,
     names: Vec<String>,
     /// Brackets that are open.
     depth: usize,
@@ -37,7 +37,7 @@ impl<'a> Parser<'a> {
     ///
     /// # Errors
     /// What is wrong where, in words.
-    pub fn parse(text: &'a str) -> Result<(Vec<Step>, Vec<String>), String> {
+    pub fn parse(text: &'a str) -> Result<(Vec<Instruction>, Vec<String>), String> {
         let mut parser = Self {
             rest: text.trim_start(),
             steps: Vec::new(),
@@ -72,7 +72,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn push_step(&mut self, step: Step) {
+    fn push_step(&mut self, step: Instruction) {
         self.steps.push(step);
     }
 
@@ -87,7 +87,7 @@ impl<'a> Parser<'a> {
         while let Some(sign) = self.take_sign(&['+', '-']) {
             self.parse_product()?;
             let is_sum = sign == '+';
-            self.push_step(Step::Binary(if is_sum {
+            self.push_step(Instruction::Binary(if is_sum {
                 Binary::Plus
             } else {
                 Binary::Minus
@@ -102,7 +102,7 @@ impl<'a> Parser<'a> {
         while let Some(sign) = self.take_sign(&['*', '/']) {
             self.parse_signed()?;
             let is_product = sign == '*';
-            self.push_step(Step::Binary(if is_product {
+            self.push_step(Instruction::Binary(if is_product {
                 Binary::Times
             } else {
                 Binary::Over
@@ -119,10 +119,10 @@ impl<'a> Parser<'a> {
         self.parse_atom()?;
         if self.take_sign(&['^']).is_some() {
             self.parse_signed()?;
-            self.push_step(Step::Binary(Binary::Power));
+            self.push_step(Instruction::Binary(Binary::Power));
         }
         if is_negative {
-            self.push_step(Step::Unary(Unary::Minus));
+            self.push_step(Instruction::Unary(Unary::Minus));
         }
         Ok(())
     }
@@ -133,7 +133,7 @@ impl<'a> Parser<'a> {
             return self.take_closing();
         }
         if let Some(number) = self.parse_number()? {
-            self.push_step(Step::Number(number));
+            self.push_step(Instruction::Number(number));
             return Ok(());
         }
         let is_of_name = |it: char| it.is_alphanumeric() || it == '_' || it == '.';
@@ -159,7 +159,7 @@ impl<'a> Parser<'a> {
             names.push(name.to_owned());
             names.len() - 1
         });
-        self.push_step(Step::Name(index));
+        self.push_step(Instruction::Name(index));
     }
 
     fn parse_call(&mut self, name: &str) -> Result<(), String> {
@@ -170,7 +170,7 @@ impl<'a> Parser<'a> {
         };
         self.take_sign(&['(']);
         self.parse_sum()?;
-        if matches!(step, Step::Binary(_)) {
+        if matches!(step, Instruction::Binary(_)) {
             if self.take_sign(&[',']).is_none() {
                 return Err(self.unexpected("a comma"));
             }

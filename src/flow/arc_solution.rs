@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
-use super::departure::Node;
+use super::departure::ScanNode;
 use super::linear_law::LARGEST_LOSS;
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 use super::taylor::linear_push_series;
 use super::zero_state_responses::ZeroStateResponses;
-use super::{Chatter, Departure, Drive, LinearLaw, PowerLaw, Taylor, TaylorStep};
+use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorPolynomials, TaylorStep};
 
 /// The exact motion that follows from a departure.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +163,7 @@ impl ArcSolution {
     }
 
     /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive stands at `drive`.
-    pub fn state_at(&self, elapsed: f64, drive: Drive) -> (f64, f64) {
+    pub fn state_at(&self, elapsed: f64, drive: DriveAngle) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
             Form::TaylorStep(_) if elapsed <= 0.0 => {
@@ -207,7 +207,7 @@ impl ArcSolution {
         let (from, flow) = (&self.departure, &self.flow);
         let free = flow.modes.transition(elapsed) * Vector2::new(from.position, from.velocity);
         let answers = ZeroStateResponses::after_time(&flow.modes, flow.frequency, elapsed);
-        let Drive { cos, sin } = from.drive;
+        let DriveAngle { cos, sin } = from.drive;
         let state = free
             + (from.push.value() * answers.constant
                 + from.push.rate() * answers.ramp
@@ -222,9 +222,9 @@ impl ArcSolution {
     }
 
     /// Taylor polynomials about a node.
-    pub(crate) fn expand(&self, node: &Node) -> Taylor {
+    pub(crate) fn expand(&self, node: &ScanNode) -> TaylorPolynomials {
         let push = linear_push_series(&self.flow, node.drive, self.linear_push_at(node.elapsed));
-        let taylor = Taylor::expand(&self.flow, (node.position, node.velocity), push);
+        let taylor = TaylorPolynomials::expand(&self.flow, (node.position, node.velocity), push);
         match self.departure.acceleration {
             _ if self.is_held() => taylor.held_at(node.position),
             Some(acceleration) if node.elapsed == 0.0 => {
@@ -251,7 +251,7 @@ impl ArcSolution {
     }
 
     /// Bounds on the position from `node` to the end of time (infinite where it may grow).
-    pub(crate) fn position_range(&self, node: &Node) -> (f64, f64) {
+    pub(crate) fn position_range(&self, node: &ScanNode) -> (f64, f64) {
         match self.form {
             Form::Held => (node.position, node.position),
             Form::Particular { particular, .. } if particular.slope == 0.0 => {
@@ -285,8 +285,8 @@ impl ArcSolution {
     }
 
     /// The drive `elapsed` seconds after departure.
-    pub(super) fn drive_at(&self, elapsed: f64) -> Drive {
-        let turn = Drive::at(self.flow.frequency * elapsed);
+    pub(super) fn drive_at(&self, elapsed: f64) -> DriveAngle {
+        let turn = DriveAngle::at(self.flow.frequency * elapsed);
         self.departure.drive.turned(turn)
     }
 }

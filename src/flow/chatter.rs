@@ -40,7 +40,7 @@ const STEADY: f64 = 1.0 / (1u64 << 10) as f64;
 
 /// What presses a mass onto a rigid stop, per unit of mass.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pressing {
+pub(crate) struct PressingForces {
     /// Accelerations towards the stop on the way out and back, in m/s^2.
     pub accelerations: (f64, f64),
     /// Bound on the rate of the drive in m/s^3.
@@ -57,7 +57,7 @@ pub(crate) struct Pressing {
     pub grain: Option<f64>,
 }
 
-impl Pressing {
+impl PressingForces {
     /// Bound in m/s^2 on what the push changes by within `duration`.
     fn push_change(&self, duration: f64) -> f64 {
         (self.drive_rate + self.push.largest_rate(duration)) * duration
@@ -67,7 +67,7 @@ impl Pressing {
 impl Chatter {
     /// The bounces that follow once a mass has left a stop of the given restitution with `speed`, if
     /// nothing but their sum can be told any more.
-    pub fn from_speed(speed: f64, restitution: f64, by: &Pressing) -> Option<Self> {
+    pub fn from_speed(speed: f64, restitution: f64, by: &PressingForces) -> Option<Self> {
         let (out, back) = by.accelerations;
         if !(speed > 0.0 && out > 0.0 && back > 0.0) {
             return None;
@@ -139,10 +139,10 @@ impl Chatter {
 
 #[cfg(test)]
 mod tests {
-    use super::{Chatter, Polynomial, Pressing};
+    use super::{Chatter, Polynomial, PressingForces};
 
-    fn pressed(out: f64, back: f64) -> Pressing {
-        Pressing {
+    fn pressed(out: f64, back: f64) -> PressingForces {
+        PressingForces {
             accelerations: (out, back),
             drive_rate: 0.3,
             push: Polynomial::linear(7.0, -0.2),

@@ -12,7 +12,7 @@ pub struct Departure {
     /// Velocity in m/s.
     pub velocity: f64,
     /// Where the drive stands.
-    pub drive: Drive,
+    pub drive: DriveAngle,
     /// Force per mass in m/s^2, as it changes from the departure on: the external one and the law's own constant one.
     pub push: Polynomial,
     /// Acceleration in m/s^2 from rest, where the phase was chosen by it: the arc then starts with this very number.
@@ -25,7 +25,7 @@ impl Departure {
         Self {
             position: -self.position,
             velocity: -self.velocity,
-            drive: Drive {
+            drive: DriveAngle {
                 cos: -self.drive.cos,
                 sin: -self.drive.sin,
             },
@@ -37,7 +37,7 @@ impl Departure {
 
 /// A motion's state at one time after departure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Node {
+pub struct ScanNode {
     /// Time since departure in s.
     pub elapsed: f64,
     /// Position in m.
@@ -45,7 +45,7 @@ pub struct Node {
     /// Velocity in m/s.
     pub velocity: f64,
     /// Where the drive stands.
-    pub drive: Drive,
+    pub drive: DriveAngle,
     pub(super) deviation: (f64, f64),
     /// Scan windows are counted from here, so that their times do not drift.
     pub(super) origin: f64,
@@ -54,14 +54,14 @@ pub struct Node {
 
 /// Cosine and sine of the drive angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Drive {
+pub struct DriveAngle {
     /// The cosine, in phase with the force.
     pub cos: f64,
     /// The sine.
     pub sin: f64,
 }
 
-impl Drive {
+impl DriveAngle {
     /// The drive at an angle in rad.
     #[inline]
     pub fn at(angle: f64) -> Self {

@@ -7,7 +7,7 @@ use nalgebra::{Matrix4x2, SMatrix, SVector, Vector4};
 use super::LinearLaw;
 use super::departure::Departure;
 use super::modes::Modes;
-use super::parameter_response::{Answer, ParameterResponse};
+use super::parameter_response::{ParameterResponse, StateAndSupply};
 
 /// The response to a start with position 1, to one with velocity 1, and from rest to the forces 1, cos(w t) and sin(w
 /// t): position y, velocity y', real and imaginary part of the integral of y' e^(i w t); below them the response to
@@ -39,7 +39,8 @@ impl LinearLaw {
             -self.amplitude * drive.sin,
         ]);
         let motion = found * along;
-        let answer = |y: Vector4<f64>| Answer::new(y.x, y.y, drive.cos * y.z - drive.sin * y.w);
+        let answer =
+            |y: Vector4<f64>| StateAndSupply::new(y.x, y.y, drive.cos * y.z - drive.sin * y.w);
         let own = |column: usize| found.fixed_view::<4, 1>(0, column).into_owned();
         let way: Vector4<f64> = motion.fixed_rows::<4>(4).into_owned();
         // The force x' leads to y' where x leads to y, both from rest.
@@ -48,7 +49,7 @@ impl LinearLaw {
         let turned = (cos * way.y + w * way.w, sin * way.y - w * way.z);
         let velocity = Vector4::new(way.y, rate, turned.0, turned.1);
         let (cosine, sine) = (own(3), own(4));
-        let mut forced = [Answer::zeros(); 9];
+        let mut forced = [StateAndSupply::zeros(); 9];
         forced[..5].copy_from_slice(&[
             answer(own(2)),
             answer(way),

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix2;
 
-use super::departure::Drive;
+use super::departure::DriveAngle;
 use super::modes::Modes;
 
 /// Largest loss of digits (as a factor) that the particular-solution form may bring.
@@ -30,7 +30,7 @@ pub struct LinearLaw {
     /// Time in s over which a Taylor polynomial is exact to round-off.
     pub(crate) reach: f64,
     pub(super) window_modes: Matrix2<f64>,
-    pub(super) window_turn: Drive,
+    pub(super) window_turn: DriveAngle,
 }
 
 impl LinearLaw {
@@ -67,7 +67,7 @@ impl LinearLaw {
             window_bounds: modes.solution_bounds(window),
             reach,
             window_modes: modes.transition(window),
-            window_turn: Drive::at(frequency * window),
+            window_turn: DriveAngle::at(frequency * window),
         }
     }
 

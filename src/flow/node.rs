@@ -1,14 +1,14 @@
 //! Nodes of an arc: its states, and how a scan steps from one to the next, window by window.
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::{Drive, Node};
+use super::departure::{DriveAngle, ScanNode};
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 
 /// What is known of a scan window.
-pub(crate) struct Window<'a> {
-    pub left: &'a Node,
-    pub right: &'a Node,
+pub(crate) struct ScanWindow<'a> {
+    pub left: &'a ScanNode,
+    pub right: &'a ScanNode,
     /// Bound on the fourth derivative of the position, in m/s^4.
     pub bound: f64,
 }
@@ -25,19 +25,19 @@ const SETTLED: f64 = 16.0 * f64::EPSILON;
 
 impl ArcSolution {
     /// The departure as a node.
-    pub fn start_node(&self) -> Node {
+    pub fn start_node(&self) -> ScanNode {
         let from = &self.departure;
         self.node_of_state(0.0, from.drive, (from.position, from.velocity))
     }
 
     /// The node at `elapsed`, evaluated afresh.
-    pub fn node_at(&self, elapsed: f64) -> Node {
+    pub fn node_at(&self, elapsed: f64) -> ScanNode {
         let drive = self.drive_at(elapsed);
         self.node_of_state(elapsed, drive, self.state_at(elapsed, drive))
     }
 
     /// The node of a linear law within half a reach, with what position and velocity have changed by.
-    pub(crate) fn node_near_start(&self, elapsed: f64) -> Option<(Node, (f64, f64))> {
+    pub(crate) fn node_near_start(&self, elapsed: f64) -> Option<(ScanNode, (f64, f64))> {
         if elapsed > 0.5 * self.flow.reach || !self.is_closed_form() {
             return None;
         }
@@ -54,9 +54,9 @@ impl ArcSolution {
     pub(crate) fn node_of_state(
         &self,
         elapsed: f64,
-        drive: Drive,
+        drive: DriveAngle,
         (position, velocity): (f64, f64),
-    ) -> Node {
+    ) -> ScanNode {
         let deviation = match self.form {
             Form::Particular { particular, .. } => {
                 let (x, v) = particular.state_at(elapsed, drive);
@@ -64,7 +64,7 @@ impl ArcSolution {
             }
             _ => (0.0, 0.0),
         };
-        Node {
+        ScanNode {
             elapsed,
             position,
             velocity,
@@ -78,7 +78,7 @@ impl ArcSolution {
     /// The node one scan window on: by rotation where that is possible, evaluated afresh every few
     /// windows, so that neither times nor states drift.
     #[inline]
-    pub(crate) fn next_node(&self, node: &Node) -> Node {
+    pub(crate) fn next_node(&self, node: &ScanNode) -> ScanNode {
         if self.flow.long_window > LONG * self.flow.window && self.is_settled(node) {
             return self.node_at(node.elapsed + self.flow.long_window);
         }
@@ -90,7 +90,7 @@ impl ArcSolution {
             }
             _ if windows >= MOST_WINDOWS => return self.node_at(elapsed),
             _ => {
-                return Node {
+                return ScanNode {
                     origin,
                     windows,
                     ..self.node_at(elapsed)
@@ -102,7 +102,7 @@ impl ArcSolution {
 
     /// The node one scan window on, by the transition matrix of a window and the turn of the drive.
     #[inline(always)]
-    fn rotated_node(&self, particular: &ParticularSolution, node: &Node) -> Node {
+    fn rotated_node(&self, particular: &ParticularSolution, node: &ScanNode) -> ScanNode {
         let (origin, windows) = (node.origin, node.windows + 1);
         let elapsed = origin + f64::from(windows) * self.flow.window;
         let (free, (y, rate)) = (&self.flow.window_modes, node.deviation);
@@ -112,7 +112,7 @@ impl ArcSolution {
         );
         let drive = node.drive.turned(self.flow.window_turn);
         let (x, v) = particular.state_at(elapsed, drive);
-        Node {
+        ScanNode {
             elapsed,
             position: x + deviation.0,
             velocity: v + deviation.1,
@@ -128,10 +128,10 @@ impl ArcSolution {
     #[inline(never)]
     pub(crate) fn skip_clear_windows(
         &self,
-        node: &mut Node,
+        node: &mut ScanNode,
         until: f64,
-        is_clear: impl Fn(&Window<'_>) -> bool,
-    ) -> Option<(Node, f64)> {
+        is_clear: impl Fn(&ScanWindow<'_>) -> bool,
+    ) -> Option<(ScanNode, f64)> {
         let flow = &self.flow;
         let Form::Particular { particular, .. } = self.form else {
             return None;
@@ -153,11 +153,11 @@ impl ArcSolution {
         let driven = flow.amplitude * square * square * flow.window * rest;
         while node.elapsed < until && !(node.windows + 1).is_multiple_of(WINDOWS_PER_EXACT_NODE) {
             let next = self.rotated_node(&particular, node);
-            let ((y, rate), Drive { cos, sin }) = (node.deviation, node.drive);
+            let ((y, rate), DriveAngle { cos, sin }) = (node.deviation, node.drive);
             let x4 = cosine * cos + sine * sin + (fourth.0 * y + fourth.1 * rate);
             let x5 = flow.frequency * (sine * cos - cosine * sin) + (fifth.0 * y + fifth.1 * rate);
             let bound = x4.abs() * most + x5.abs() * rest + driven;
-            let window = Window {
+            let window = ScanWindow {
                 left: node,
                 right: &next,
                 bound,
@@ -171,7 +171,7 @@ impl ArcSolution {
     }
 
     /// True if nothing is left of the free motion.
-    fn is_settled(&self, node: &Node) -> bool {
+    fn is_settled(&self, node: &ScanNode) -> bool {
         match self.form {
             Form::Particular { particular, .. } => {
                 let (y, rate) = node.deviation;

@@ -10,11 +10,11 @@ use super::taylor_step::TaylorStep;
 use super::variation::Linearized;
 
 /// Changes of position in m, of velocity in m/s, and of the integral of velocity times cos(drive angle), in m.
-pub(crate) type Answer = Vector3<f64>;
+pub(crate) type StateAndSupply = Vector3<f64>;
 
 /// A force per mass along an arc by which a change of its law or its drive acts.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Source {
+pub(crate) enum ForceBasis {
     /// 1.
     Constant,
     /// Position, seen from the departure or, under a power law, from its face.
@@ -35,8 +35,8 @@ pub(crate) enum Source {
     Steepness,
 }
 
-/// The amount of each [`Source`].
-pub(crate) type Forces = [f64; 9];
+/// The amount of each [`ForceBasis`].
+pub(crate) type ForceCoefficients = [f64; 9];
 
 /// The response of an arc at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,15 +44,15 @@ pub(crate) struct ParameterResponse {
     /// To changes of position and velocity at departure.
     pub free: Matrix3x2<f64>,
     /// From rest, to one of each source.
-    pub forced: [Answer; 9],
+    pub forced: [StateAndSupply; 9],
     /// Integrals of the course's own velocity times cosine and sine of the drive angle, in m.
     pub travel: (f64, f64),
 }
 
 impl ParameterResponse {
     /// The response to a change at departure and to forces together.
-    pub fn combined(&self, start: &Answer, forces: &Forces) -> Answer {
-        let carried = self.free * start.xy() + Answer::new(0.0, 0.0, start.z);
+    pub fn combined(&self, start: &StateAndSupply, forces: &ForceCoefficients) -> StateAndSupply {
+        let carried = self.free * start.xy() + StateAndSupply::new(0.0, 0.0, start.z);
         let pairs = self.forced.iter().zip(forces);
         pairs.fold(carried, |sum, (answer, force)| sum + *force * answer)
     }
@@ -68,7 +68,7 @@ impl ArcSolution {
         match &self.form {
             Form::Held => Some(ParameterResponse {
                 free: Matrix3x2::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-                forced: [Answer::zeros(); 9],
+                forced: [StateAndSupply::zeros(); 9],
                 travel: (0.0, 0.0),
             }),
             Form::Particular { .. } | Form::Responses if self.departure.push.rate() == 0.0 => {
@@ -140,7 +140,7 @@ impl ArcSolution {
         let free = free(to);
         ParameterResponse {
             free,
-            forced: sums.map(|sum| free * sum.xy() - Answer::new(0.0, 0.0, sum.z)),
+            forced: sums.map(|sum| free * sum.xy() - StateAndSupply::new(0.0, 0.0, sum.z)),
             travel,
         }
     }

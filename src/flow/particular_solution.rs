@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Vector2};
 
-use super::{Departure, Drive, LinearLaw};
+use super::{Departure, DriveAngle, LinearLaw};
 
 /// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +31,7 @@ impl ParticularSolution {
 
     /// Position and velocity.
     #[inline]
-    pub fn state_at(&self, elapsed: f64, Drive { cos, sin }: Drive) -> (f64, f64) {
+    pub fn state_at(&self, elapsed: f64, DriveAngle { cos, sin }: DriveAngle) -> (f64, f64) {
         (
             self.offset + self.slope * elapsed + self.cosine * cos + self.sine * sin,
             self.slope + self.frequency * (self.sine * cos - self.cosine * sin),
@@ -40,7 +40,12 @@ impl ParticularSolution {
 
     /// Derivative of the harmonic part by the drive's frequency, `time` seconds after the instant at which the drive's
     /// angle is held: the response Re((c1 t + c0) e^(i angle)) to the force -A t sin(angle).
-    pub fn frequency_derivative(&self, flow: &LinearLaw, time: f64, drive: Drive) -> Vector2<f64> {
+    pub fn frequency_derivative(
+        &self,
+        flow: &LinearLaw,
+        time: f64,
+        drive: DriveAngle,
+    ) -> Vector2<f64> {
         if flow.amplitude == 0.0 {
             return Vector2::zeros();
         }

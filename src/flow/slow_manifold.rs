@@ -50,7 +50,7 @@ pub(super) struct SlowManifold {
 }
 
 /// Derivatives of the force of contact by velocity (damping) and deflection (stiffness) along a motion, and the force.
-struct Slopes {
+struct ContactSlopes {
     damping: Series,
     stiffness: Series,
     force: Series,
@@ -81,7 +81,7 @@ impl SlowEquation<'_> {
     }
 
     /// The slopes of the contact force along a motion with this series of its deflection.
-    fn slopes_along(&self, depth: &Series) -> Slopes {
+    fn slopes_along(&self, depth: &Series) -> ContactSlopes {
         let velocity = derivative(depth);
         let (kappa, lambda, n) = (
             self.hertz.factor(),
@@ -90,7 +90,7 @@ impl SlowEquation<'_> {
         );
         let w = power_series(depth, n);
         let steep = power_series(depth, n - 1.0);
-        let mut slopes = Slopes {
+        let mut slopes = ContactSlopes {
             damping: w.map(|w| kappa * lambda * w),
             stiffness: std::array::from_fn(|k| {
                 kappa * n * (steep[k] + lambda * convolve(&steep, &velocity, k))
@@ -136,7 +136,7 @@ impl SlowEquation<'_> {
     fn residual(
         &self,
         depth: &Series,
-        slopes: &Slopes,
+        slopes: &ContactSlopes,
         span: f64,
         decays: bool,
     ) -> SVector<f64, ORDER> {
@@ -187,7 +187,7 @@ impl SlowEquation<'_> {
 
 /// Derivative of the residual by the scaled coefficients; unless the influence of the start decays, its first row
 /// keeps the deflection at the start.
-fn jacobian(slopes: &Slopes, span: f64, decays: bool) -> SMatrix<f64, ORDER, ORDER> {
+fn jacobian(slopes: &ContactSlopes, span: f64, decays: bool) -> SMatrix<f64, ORDER, ORDER> {
     let entry = |k: usize, j: usize| {
         let mut entry = 0.0;
         if j == k + 2 {

@@ -4,7 +4,7 @@
 //! Of the linear law, with |r| <= rho for both roots, t^k / k! is answered from rest by coefficients of at most (n - k - 1)
 //! rho^(n-k-2) / n! for t^n. So the first one that the polynomial leaves out is known beforehand, and the step can be
 //! made so short that it is lost in the rounding of the others. What the drive and the free motion leave out is so over
-//! one reach of the flow (see [`Taylor`]).
+//! one reach of the flow (see [`TaylorPolynomials`]).
 //!
 //! With w = d^n, d w' = n d' w; the product d' w in it is the one that the dissipation of the power law needs, too.
 
@@ -12,7 +12,7 @@ use super::convergence::{TRUNCATION, dense_convergence_reach, first_span};
 use super::paired_products::Products;
 use super::power_law::PowerLaw;
 use super::series::{Series, ZERO};
-use super::taylor::{DEGREE, RECIPROCALS, Taylor, push_series};
+use super::taylor::{DEGREE, RECIPROCALS, TaylorPolynomials, push_series};
 use super::taylor_step::TaylorStep;
 use super::{Departure, LinearLaw};
 
@@ -46,7 +46,7 @@ impl TaylorStep {
         from: &Departure,
         start: (f64, f64),
     ) -> Self {
-        let taylor = Taylor::expand(flow, start, push_series(flow, from));
+        let taylor = TaylorPolynomials::expand(flow, start, push_series(flow, from));
         let taylor = match from.acceleration {
             Some(acceleration) => taylor.with_acceleration(flow, acceleration),
             None => taylor,

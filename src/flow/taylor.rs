@@ -1,6 +1,6 @@
 //! Local Taylor polynomials of the exact motion: they locate crossings without cancellation.
 
-use super::{Departure, Drive, LinearLaw};
+use super::{Departure, DriveAngle, LinearLaw};
 
 /// Degree of the polynomials (odd): over one [`reach`](LinearLaw::reach) the remainder is far below rounding, and a contact
 /// under a power law costs least.
@@ -8,7 +8,7 @@ pub(crate) const DEGREE: usize = 25;
 
 /// Coefficients of position and drive about one instant, x(s) = sum c_n s^n.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Taylor {
+pub(crate) struct TaylorPolynomials {
     /// Position in m/s^n.
     pub position: [f64; DEGREE + 1],
     /// Push p(t) + A cos(angle + w t) in m/s^2/s^n.
@@ -26,7 +26,7 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
     table
 };
 
-impl Taylor {
+impl TaylorPolynomials {
     /// Expands the motion from (x, v) under a push.
     pub fn expand(flow: &LinearLaw, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
@@ -97,7 +97,7 @@ pub(super) fn push_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE + 
 /// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
 pub(super) fn linear_push_series(
     flow: &LinearLaw,
-    Drive { cos, sin }: Drive,
+    DriveAngle { cos, sin }: DriveAngle,
     (constant, ramp): (f64, f64),
 ) -> [f64; DEGREE + 1] {
     let mut push = [0.0; DEGREE + 1];

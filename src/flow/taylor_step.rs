@@ -45,7 +45,7 @@ pub(crate) struct TaylorStep {
     /// Length of the step in time, in s.
     pub end: f64,
     /// Where the step ends.
-    pub(super) last: StepPlace,
+    pub(super) last: StateOnStep,
     pub(super) hertz: PowerLaw,
     /// Damping over mass in 1/s, the power law's left out.
     pub(super) damping: f64,
@@ -72,7 +72,7 @@ pub(super) struct RegularizedTime {
 
 /// A state along a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct StepPlace {
+pub(super) struct StateOnStep {
     /// Deflection in m.
     pub deflection: f64,
     /// What rounding took from it, in m.
@@ -84,7 +84,7 @@ pub(super) struct StepPlace {
 /// What is known of a position beyond its rounded value: where it counts from a nonlinear face, the deflection; else
 /// what rounding took from it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct FinePlace {
+pub(crate) struct FinePosition {
     /// Deflection in m.
     pub deflection: f64,
     /// Rest in m.
@@ -207,12 +207,12 @@ impl TaylorStep {
         self.state_of_place(&self.last)
     }
 
-    fn state_of_place(&self, moved: &StepPlace) -> (f64, f64) {
+    fn state_of_place(&self, moved: &StateOnStep) -> (f64, f64) {
         let (position, velocity) = (self.hertz.origin + moved.deflection, moved.velocity);
         (self.side() * position, self.side() * velocity)
     }
 
-    fn place_after(&self, elapsed: f64) -> StepPlace {
+    fn place_after(&self, elapsed: f64) -> StateOnStep {
         if elapsed >= self.end {
             self.last
         } else {
@@ -220,9 +220,9 @@ impl TaylorStep {
         }
     }
 
-    pub(super) fn place_at(&self, sigma: f64) -> StepPlace {
+    pub(super) fn place_at(&self, sigma: f64) -> StateOnStep {
         if let Some(regularized) = &self.regularized {
-            return StepPlace {
+            return StateOnStep {
                 deflection: value(&regularized.root, sigma).powi(regularized.index as i32),
                 low: 0.0,
                 velocity: value(&regularized.velocity, sigma),
@@ -233,7 +233,7 @@ impl TaylorStep {
         // The sum without error of Knuth (1969, 4.2.2, theorem B).
         let sum = start + way;
         let taken = sum - start;
-        StepPlace {
+        StateOnStep {
             deflection: sum,
             low: (start - (sum - taken)) + (way - taken),
             velocity,
@@ -241,19 +241,19 @@ impl TaylorStep {
     }
 
     /// What is known of the start beyond the rounded position.
-    pub fn fine_start(&self) -> FinePlace {
-        FinePlace {
+    pub fn fine_start_position(&self) -> FinePosition {
+        FinePosition {
             deflection: self.departed,
             low: self.low,
         }
     }
 
     /// What is known of the position after a time beyond its rounded value.
-    pub fn fine_at(&self, elapsed: f64) -> FinePlace {
-        let StepPlace {
+    pub fn fine_position_at(&self, elapsed: f64) -> FinePosition {
+        let StateOnStep {
             deflection, low, ..
         } = self.place_after(elapsed);
-        FinePlace { deflection, low }
+        FinePosition { deflection, low }
     }
 
     /// Push per mass in m/s^2 at sigma.

@@ -3,7 +3,7 @@
 use nalgebra::Complex;
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::{Drive, Node};
+use super::departure::{DriveAngle, ScanNode};
 use super::gauss::gauss_nodes;
 use super::particular_solution::ParticularSolution;
 use super::series::{ZERO, integral_of_product, value};
@@ -22,7 +22,7 @@ pub(crate) struct WorkIntegrals {
 
 impl ArcSolution {
     /// Work from departure to a node; `law` is the part of the constant push that is the phase's own force.
-    pub(crate) fn work_integrals(&self, to: &Node, law: f64) -> WorkIntegrals {
+    pub(crate) fn work_integrals(&self, to: &ScanNode, law: f64) -> WorkIntegrals {
         let elapsed = to.elapsed;
         match &self.form {
             Form::Held | Form::Chatter(_) => WorkIntegrals::default(),
@@ -87,7 +87,7 @@ impl ArcSolution {
         &self,
         particular: &ParticularSolution,
         start: (f64, f64),
-        to: &Node,
+        to: &ScanNode,
         law: f64,
     ) -> WorkIntegrals {
         let (from, elapsed) = (self.start_node(), to.elapsed);
@@ -119,8 +119,8 @@ impl ArcSolution {
     /// w) [e y] for I, the integral of y e^(i angle), with e = e^(i angle) in the differences between the ends.
     fn integral_of_free_velocity(
         &self,
-        (start, from): ((f64, f64), Drive),
-        (end, to): ((f64, f64), Drive),
+        (start, from): ((f64, f64), DriveAngle),
+        (end, to): ((f64, f64), DriveAngle),
     ) -> Complex<f64> {
         let (a, b, w) = (
             self.flow.modes.decay,
@@ -137,7 +137,7 @@ impl ArcSolution {
 
     /// Work of the external force c + r t per mass: [(c + r t) x] - r times the integral of x, which follows from the
     /// integral of the equation of motion.
-    fn work_of_push(&self, from: &Node, to: &Node, law: f64) -> f64 {
+    fn work_of_push(&self, from: &ScanNode, to: &ScanNode, law: f64) -> f64 {
         let (constant, ramp) = self.linear_push_at(0.0);
         let elapsed = to.elapsed;
         let external = constant - law;
@@ -202,8 +202,9 @@ struct DriveIntegrals {
 }
 
 impl DriveIntegrals {
-    fn between_nodes(w: f64, from: &Node, to: &Node) -> Self {
-        let (Drive { cos: c0, sin: s0 }, Drive { cos: c1, sin: s1 }) = (from.drive, to.drive);
+    fn between_nodes(w: f64, from: &ScanNode, to: &ScanNode) -> Self {
+        let (DriveAngle { cos: c0, sin: s0 }, DriveAngle { cos: c1, sin: s1 }) =
+            (from.drive, to.drive);
         let (half, slowness) = (0.5 * to.elapsed, 1.0 / w);
         let ripple = 0.5 * slowness * (s1 * c1 - s0 * c0);
         Self {

@@ -12,8 +12,8 @@ use super::reset::Reset;
 use super::start::Start;
 use crate::budget;
 use crate::error::MotionError;
-use crate::events::{Found, Guard, NextEvent, first_crossing};
-use crate::flow::{Drive, FinePlace};
+use crate::events::{FoundCrossing, Guard, NextEvent, first_crossing};
+use crate::flow::{DriveAngle, FinePosition};
 use crate::phases::{Mode, Phase};
 
 /// Most crossings at one and the same instant: more than any row of bounces that is shorter than the resolution of
@@ -71,7 +71,7 @@ impl Motion {
         let (mut cycle, mut work) = (self.now.cycles, 0);
         while !self.advance_if_clear(until)? {
             let (elapsed, counts) = match self.outlook {
-                NextEvent::Crossing(Found { elapsed, .. }) => (elapsed, 1),
+                NextEvent::Crossing(FoundCrossing { elapsed, .. }) => (elapsed, 1),
                 NextEvent::Ends(elapsed) => (elapsed, STEP_AT_ONCE),
                 _ => (0.0, 0),
             };
@@ -240,7 +240,7 @@ impl Motion {
         elapsed: f64,
         state: Option<Start>,
         observer: &mut dyn Observer,
-    ) -> Drive {
+    ) -> DriveAngle {
         let at = self.clock.after(self.start, elapsed);
         let drive = self.clock.drive(at);
         let end = state.map(|state| (elapsed, state, drive));
@@ -251,9 +251,12 @@ impl Motion {
     }
 
     /// The next Taylor step, from the very place at which the last one ended.
-    fn next_step(&mut self, elapsed: f64, drive: Drive) {
+    fn next_step(&mut self, elapsed: f64, drive: DriveAngle) {
         let (position, velocity) = self.course.state_at(elapsed, drive);
-        let finer = self.course.taylor_step().map(|last| last.fine_at(elapsed));
+        let finer = self
+            .course
+            .taylor_step()
+            .map(|last| last.fine_position_at(elapsed));
         let (position, finer) = match (self.phase(), finer) {
             (Some(phase), Some(finer)) if phase.hertz.is_none() => confine(phase, position, finer),
             _ => (position, finer),
@@ -264,7 +267,7 @@ impl Motion {
     }
 
     /// Ends the arc at a crossing and begins the next one.
-    pub(super) fn pass_crossing(&mut self, found: Found, observer: &mut dyn Observer) {
+    pub(super) fn pass_crossing(&mut self, found: FoundCrossing, observer: &mut dyn Observer) {
         // A mass that leaves rest and is back at once has not moved.
         let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
         let velocity = match self.mode {
@@ -286,7 +289,7 @@ impl Motion {
         &mut self,
         landing: Reset,
         before: Start,
-        drive: Drive,
+        drive: DriveAngle,
         observer: &mut dyn Observer,
     ) {
         let (push, after) = (self.push(drive), landing.state);
@@ -311,7 +314,7 @@ impl Motion {
 }
 
 /// The place between two steps of a linear phase: within its surfaces, so that none is passed unseen by rounding.
-fn confine(phase: &Phase, position: f64, finer: FinePlace) -> (f64, Option<FinePlace>) {
+fn confine(phase: &Phase, position: f64, finer: FinePosition) -> (f64, Option<FinePosition>) {
     let beside = if finer.low > 0.0 {
         position.next_up()
     } else if finer.low < 0.0 {

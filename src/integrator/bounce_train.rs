@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::phases::{SurfaceId, Threshold};
+use crate::phases::{RestThreshold, SurfaceId};
 
 /// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast as one
 /// before it.
@@ -51,13 +51,13 @@ impl BounceTrain {
     }
 
     /// The bounces that count as rest after this row.
-    pub fn rest_threshold(&self) -> Threshold {
+    pub fn rest_threshold(&self) -> RestThreshold {
         if self.crossings < PATIENCE {
-            return Threshold::ROUNDING;
+            return RestThreshold::ROUNDING;
         }
         let length = f64::from(self.crossings) / f64::from(PATIENCE);
         let faint = FAINT * length * length;
-        Threshold {
+        RestThreshold {
             height: faint,
             slowest: faint.sqrt() * self.fastest,
         }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::flow::Drive;
+use crate::flow::DriveAngle;
 use crate::scene::Scene;
 
 /// 2 pi - TAU: the part of 2 pi that the double lacks.
@@ -122,7 +122,7 @@ impl Clock {
 
     /// Where the drive stands.
     #[inline]
-    pub fn drive(&self, at: Instant) -> Drive {
-        Drive::at(self.frequency * at.offset + self.phase)
+    pub fn drive(&self, at: Instant) -> DriveAngle {
+        DriveAngle::at(self.frequency * at.offset + self.phase)
     }
 }

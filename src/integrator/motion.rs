@@ -10,8 +10,8 @@ use super::start::Start;
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::{NextEvent, is_clear_near_start};
-use crate::flow::{ArcSolution, Chatter, Departure, Drive, FinePlace, Polynomial};
-use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, Store, Surface};
+use crate::flow::{ArcSolution, Chatter, Departure, DriveAngle, FinePosition, Polynomial};
+use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, StopEnergy, Surface};
 
 /// The exact motion of a scene, arc by arc.
 ///
@@ -157,7 +157,7 @@ impl Motion {
     }
 
     /// The energy store of the stop now.
-    pub fn store(&self) -> &Store {
+    pub fn store(&self) -> &StopEnergy {
         let phase = match self.mode {
             Mode::Moving(phase) => phase,
             Mode::Held(hold) | Mode::Chattering(hold) => hold.outer_phase(),
@@ -248,7 +248,7 @@ impl Motion {
     }
 
     /// Begins an arc in this state and mode at the present start instant.
-    pub(super) fn begin_arc(&mut self, state: Start, drive: Drive, mode: Mode) {
+    pub(super) fn begin_arc(&mut self, state: Start, drive: DriveAngle, mode: Mode) {
         let acceleration =
             (state.velocity == 0.0).then(|| self.acceleration_at_rest(state.position, drive, mode));
         let departure = self.arc_departure(state, drive, mode, acceleration);
@@ -259,7 +259,7 @@ impl Motion {
     pub(super) fn arc_departure(
         &self,
         state: Start,
-        drive: Drive,
+        drive: DriveAngle,
         mode: Mode,
         acceleration: Option<f64>,
     ) -> Departure {
@@ -280,7 +280,7 @@ impl Motion {
         &mut self,
         departure: Departure,
         mode: Mode,
-        finer: Option<FinePlace>,
+        finer: Option<FinePosition>,
         chatter: Option<Chatter>,
     ) {
         let held = &self.phases.held;
@@ -294,7 +294,7 @@ impl Motion {
                         self.course
                             .restart_nonlinear(&phase.flow, hertz, departure, deflection);
                     }
-                    (None, Some(FinePlace { low, .. })) => {
+                    (None, Some(FinePosition { low, .. })) => {
                         self.course = ArcSolution::next_step(&phase.flow, departure, low);
                     }
                     (None, None) => self.course.restart(&phase.flow, departure),
@@ -312,7 +312,7 @@ impl Motion {
     }
 
     /// Acceleration in m/s^2 with which a mass at rest starts in a mode: the very number by which the mode was chosen.
-    pub(super) fn acceleration_at_rest(&self, position: f64, drive: Drive, mode: Mode) -> f64 {
+    pub(super) fn acceleration_at_rest(&self, position: f64, drive: DriveAngle, mode: Mode) -> f64 {
         match (self.mode, mode) {
             (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => {
                 let push = self.push(drive);
@@ -324,7 +324,7 @@ impl Motion {
     }
 
     /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
-    pub(super) fn push(&self, drive: Drive) -> f64 {
+    pub(super) fn push(&self, drive: DriveAngle) -> f64 {
         self.phases.push(drive, self.force.on_arc())
     }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::clock::{Clock, Instant};
 use super::start::Start;
-use crate::flow::{ArcSolution, Drive, Node};
+use crate::flow::{ArcSolution, DriveAngle, ScanNode};
 use crate::phases::{Phase, PhaseKind};
 
 /// A stretch of motion in one phase.
@@ -28,12 +28,12 @@ pub struct Arc<'a> {
     /// 1 where what holds on it is a stop above, or none, -1 where it is one below.
     pub side: f64,
     /// When it ends, in s after the start, with state and drive there, where a crossing has told them.
-    pub(crate) end: Option<(f64, Start, Drive)>,
+    pub(crate) end: Option<(f64, Start, DriveAngle)>,
 }
 
 impl Arc<'_> {
     /// The node `elapsed` seconds after the start, at the end of the arc or on the way.
-    pub(super) fn node_after(&self, elapsed: f64) -> Node {
+    pub(super) fn node_after(&self, elapsed: f64) -> ScanNode {
         match self.end {
             Some((at, Start { position, velocity }, drive)) if at == elapsed => self
                 .course
@@ -48,7 +48,7 @@ impl Arc<'_> {
     }
 
     /// Where the drive stands `elapsed` seconds after the start.
-    pub fn drive(&self, elapsed: f64) -> Drive {
+    pub fn drive(&self, elapsed: f64) -> DriveAngle {
         self.clock.drive(self.clock.after(self.start, elapsed))
     }
 

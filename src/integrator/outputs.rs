@@ -3,7 +3,7 @@
 use super::observer::Impact;
 use super::simulation::Simulation;
 use super::start::Start;
-use crate::flow::Drive;
+use crate::flow::DriveAngle;
 use crate::phases::PhaseKind;
 
 /// Outputs at the present time.
@@ -70,7 +70,7 @@ impl Simulation {
     /// Drive and external force now, in N, with their first and second derivative.
     pub fn push(&self) -> (f64, f64, f64) {
         let force = self.motion.force();
-        let Drive { cos, sin } = self.motion.clock().drive(self.motion.now());
+        let DriveAngle { cos, sin } = self.motion.clock().drive(self.motion.now());
         let excitation = self.scene.excitation;
         let (amplitude, w) = (excitation.amplitude, excitation.frequency);
         (

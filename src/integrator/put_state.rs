@@ -3,7 +3,7 @@
 use super::motion::Motion;
 use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;
-use crate::events::{Found, Guard, NextEvent};
+use crate::events::{FoundCrossing, Guard, NextEvent};
 use crate::phases::{Mode, Phase};
 
 impl Motion {
@@ -47,7 +47,7 @@ impl Motion {
         };
         let passed = self.guard_values().enumerate().find(is_passed);
         if let Some((guard, _)) = passed {
-            self.outlook = NextEvent::Crossing(Found {
+            self.outlook = NextEvent::Crossing(FoundCrossing {
                 elapsed: 0.0,
                 guard,
                 position,

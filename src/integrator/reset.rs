@@ -3,9 +3,11 @@
 use super::motion::Motion;
 use super::observer::CrossingKind;
 use super::start::Start;
-use crate::events::Found;
-use crate::flow::{Chatter, Polynomial, Pressing};
-use crate::phases::{Beyond, Exit, Mode, PhaseId, Phases, Sticking, Surface, SurfaceId, Threshold};
+use crate::events::FoundCrossing;
+use crate::flow::{Chatter, Polynomial, PressingForces};
+use crate::phases::{
+    Beyond, Exit, Mode, PhaseId, Phases, RestThreshold, Sticking, Surface, SurfaceId,
+};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face, and in too many impacts for lanes.
@@ -47,7 +49,7 @@ impl Phases {
 
     /// The velocity of a crossing out of a phase: rounding may turn that of a touch the other way.
     #[inline]
-    pub(super) fn crossing_velocity(&self, phase: PhaseId, found: &Found) -> f64 {
+    pub(super) fn crossing_velocity(&self, phase: PhaseId, found: &FoundCrossing) -> f64 {
         match self[phase].exits[found.guard] {
             Exit::Forward(_) | Exit::Backward(_) => {
                 if self[phase].guards[found.guard].position > 0.0 {
@@ -68,7 +70,7 @@ impl Motion {
     }
 
     /// State and mode right after a crossing; `moved` as for [`ResetContext::reset`].
-    pub(super) fn reset_after(&self, found: &Found, push: f64, moved: bool) -> Reset {
+    pub(super) fn reset_after(&self, found: &FoundCrossing, push: f64, moved: bool) -> Reset {
         match self.mode {
             Mode::Moving(phase) => self.reset_context().reset(phase, found, push, moved),
             Mode::Held(hold) | Mode::Chattering(hold) => {
@@ -107,7 +109,7 @@ pub(crate) struct ResetContext<'a> {
     /// The strip of this stroke is pierced.
     pub pierced: bool,
     /// The bounces that count as rest.
-    pub threshold: Threshold,
+    pub threshold: RestThreshold,
     /// The external force in N from now on.
     pub force: &'a Polynomial,
     /// Drive period in s.
@@ -117,7 +119,13 @@ pub(crate) struct ResetContext<'a> {
 impl ResetContext<'_> {
     /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at once where it
     /// left rest.
-    pub(crate) fn reset(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Reset {
+    pub(crate) fn reset(
+        &self,
+        phase: PhaseId,
+        found: &FoundCrossing,
+        push: f64,
+        moved: bool,
+    ) -> Reset {
         let onward = self.phases.crossing_velocity(phase, found);
         let phase = &self.phases[phase];
         let position = phase.confine_position(found.position);
@@ -201,7 +209,7 @@ impl ResetContext<'_> {
         let drive = phases.amplitude * phases.frequency;
         let velocity = -at.side * speed;
         let two_laws = back != out || phases.pressing_phase(out, at.position, velocity) != out;
-        let pressing = Pressing {
+        let pressing = PressingForces {
             accelerations: (rest(out), rest(back)),
             drive_rate: drive,
             push: self.force.per_mass(0.0, phases.mass),

@@ -112,7 +112,10 @@ impl Motion {
         let elapsed = self.clock.elapsed(self.start, now);
         if elapsed > 0.0 && self.phase().is_some() {
             let state = motion.state();
-            let finer = self.course.taylor_step().map(|step| step.fine_at(elapsed));
+            let finer = self
+                .course
+                .taylor_step()
+                .map(|step| step.fine_position_at(elapsed));
             motion.force.next_arc(&self.clock, now, elapsed);
             motion.start = now;
             let departure = motion.arc_departure(state, self.clock.drive(now), self.mode, None);

@@ -35,7 +35,7 @@ pub struct Simulation {
 /// How a machine begins. A [`Start`] is enough: time 0 s and a fed strip go with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Begin {
+pub struct InitialConditions {
     /// The state.
     pub start: Start,
     /// Absolute time in s; the drive is F0 cos(w t + phi) in absolute time.
@@ -44,7 +44,7 @@ pub struct Begin {
     pub fed: bool,
 }
 
-impl From<Start> for Begin {
+impl From<Start> for InitialConditions {
     fn from(start: Start) -> Self {
         Self {
             start,
@@ -54,7 +54,7 @@ impl From<Start> for Begin {
     }
 }
 
-impl Begin {
+impl InitialConditions {
     /// These options at another absolute time in s.
     #[must_use]
     pub const fn at_time(self, time: f64) -> Self {
@@ -72,12 +72,12 @@ impl Begin {
 const LAST_CYCLE: f64 = 9.0e15;
 
 impl Simulation {
-    /// The machine from a [`Start`] at time 0 s, or as a [`Begin`] says.
+    /// The machine from a [`Start`] at time 0 s, or as a [`InitialConditions`] says.
     ///
     /// # Errors
     /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond a rigid stop.
-    pub fn new(scene: &Scene, begin: impl Into<Begin>) -> Result<Self, MotionError> {
-        let Begin { start, time, fed } = begin.into();
+    pub fn new(scene: &Scene, begin: impl Into<InitialConditions>) -> Result<Self, MotionError> {
+        let InitialConditions { start, time, fed } = begin.into();
         let scene = scene.check()?;
         start.validate()?;
         if !time.is_finite() {

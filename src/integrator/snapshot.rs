@@ -18,7 +18,7 @@ use super::tallies::{Counts, Tallies};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::NextEvent;
-use crate::flow::{Chatter, Departure, FinePlace, Polynomial, TaylorStep};
+use crate::flow::{Chatter, Departure, FinePosition, Polynomial, TaylorStep};
 use crate::phases::{Mode, Phases, Sticking};
 
 /// A running machine at one time. Written to bytes and read back, in this process or another, it goes
@@ -48,7 +48,7 @@ struct MotionData {
     now: Instant,
     departure: Departure,
     /// What is known of the departure beyond its rounded position.
-    finer: Option<FinePlace>,
+    finer: Option<FinePosition>,
     chatter: Option<Chatter>,
     outlook: NextEvent,
     bounce_train: BounceTrain,
@@ -67,7 +67,10 @@ impl MotionData {
             start: motion.start,
             now: motion.now,
             departure: motion.course.departure,
-            finer: motion.course.taylor_step().map(TaylorStep::fine_start),
+            finer: motion
+                .course
+                .taylor_step()
+                .map(TaylorStep::fine_start_position),
             chatter: motion.course.chatter().copied(),
             outlook: motion.outlook,
             bounce_train: motion.bounce_train,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Arc, Motion, Start};
-use crate::phases::Store;
+use crate::phases::StopEnergy;
 use crate::scene::Scene;
 
 /// Energies in J that crossed the machine's boundary.
@@ -25,7 +25,7 @@ impl std::ops::AddAssign for Work {
 
 /// Energies in J that crossed the machine's boundary along an arc, by what took them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Shares {
+pub struct WorkShares {
     /// Work of the drive and the external force.
     pub supplied: f64,
     /// Lost in the damper that holds on the arc.
@@ -38,7 +38,7 @@ pub struct Shares {
 
 /// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass`.
 pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
-    let of = shares(arc, mass, elapsed);
+    let of = work_shares(arc, mass, elapsed);
     Work {
         supplied: of.supplied,
         dissipated: of.damper + of.law + of.bounces,
@@ -46,23 +46,23 @@ pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
 }
 
 /// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass`, by what took it.
-pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
+pub fn work_shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> WorkShares {
     if let Some(chatter) = arc.course.chatter() {
         let (_, velocity) = chatter.state_after(elapsed);
         let lost = (chatter.speed - velocity) * (chatter.speed + velocity);
-        return Shares {
+        return WorkShares {
             bounces: 0.5 * mass * lost,
-            ..Shares::default()
+            ..WorkShares::default()
         };
     }
     let Some(phase) = arc.phase else {
-        return Shares::default();
+        return WorkShares::default();
     };
     let end = arc.node_after(elapsed);
     let power = arc.course.work_integrals(&end, phase.law.force / mass);
     let (low, high) = (arc.course.departure.position, end.position);
     let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
-    Shares {
+    WorkShares {
         supplied: mass * power.supplied,
         damper: mass * power.lost,
         law: mass * power.pressed + phase.elastic_work(low, high) - stored,
@@ -71,7 +71,7 @@ pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
 }
 
 /// Mechanical energy in J of a state: kinetic, suspension and what the stop's store holds, if there is one.
-pub fn mechanical_energy(scene: &Scene, state: Start, store: Option<&Store>) -> f64 {
+pub fn mechanical_energy(scene: &Scene, state: Start, store: Option<&StopEnergy>) -> f64 {
     let Start { position, velocity } = state;
     let kinetic = 0.5 * scene.mass * velocity * velocity;
     let spring = 0.5 * scene.stiffness * position * position;

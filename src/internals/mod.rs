@@ -8,7 +8,9 @@ pub use crate::error::{did_you_mean, plain_number, rpm_value_hint};
 pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chained};
 pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw};
-pub use crate::integrator::{Evaluations, MAX_RESTITUTION, Motion, Shares, Walk, shares, work};
+pub use crate::integrator::{
+    Evaluations, MAX_RESTITUTION, Motion, PhaseTracker, WorkShares, work, work_shares,
+};
 pub use crate::machine::{nearest_name, with_near_word};
 pub use crate::peak::{highest_point, largest_value};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};

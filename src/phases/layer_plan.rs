@@ -1,6 +1,6 @@
 //! The plan of the layers that a scene's stop and strip make, before their phases are numbered.
 
-use super::{Law, PhaseKind, Spring};
+use super::{LawCoefficients, PhaseKind, SpringEnergy};
 use crate::events::Guard;
 use crate::flow::PowerLaw;
 use crate::scene::{Piercing, Release, Scene, Slope, Stop, force_of, stiffness_from};
@@ -9,18 +9,18 @@ use crate::scene::{Piercing, Release, Scene, Slope, Stop, force_of, stiffness_fr
 pub(super) struct LayerPlan {
     pub kind: PhaseKind,
     pub from: f64,
-    pub forward: Law,
+    pub forward: LawCoefficients,
     /// The law of the way back, if it is another one.
-    pub backward: Option<Law>,
+    pub backward: Option<LawCoefficients>,
     /// The linear law that holds while the guard is above zero.
-    pub released: Option<(Law, Guard)>,
+    pub released: Option<(LawCoefficients, Guard)>,
     pub hertz: Option<PowerLaw>,
-    pub spring: Spring,
+    pub spring: SpringEnergy,
     pub is_far_side: bool,
 }
 
 impl LayerPlan {
-    fn new(kind: PhaseKind, from: f64, forward: Law) -> Self {
+    fn new(kind: PhaseKind, from: f64, forward: LawCoefficients) -> Self {
         Self {
             kind,
             from,
@@ -28,9 +28,9 @@ impl LayerPlan {
             backward: None,
             released: None,
             hertz: None,
-            spring: Spring {
+            spring: SpringEnergy {
                 origin: from,
-                ..Spring::default()
+                ..SpringEnergy::default()
             },
             is_far_side: false,
         }
@@ -38,8 +38,8 @@ impl LayerPlan {
 }
 
 /// The layers beyond the clearance, with or without a strip in them.
-pub(super) fn plan_layers(scene: &Scene, free: Law, fed: bool) -> Vec<LayerPlan> {
-    let touching = Law {
+pub(super) fn plan_layers(scene: &Scene, free: LawCoefficients, fed: bool) -> Vec<LayerPlan> {
+    let touching = LawCoefficients {
         damping: scene.contact_damping,
         ..free
     };
@@ -62,8 +62,8 @@ pub(super) fn plan_layers(scene: &Scene, free: Law, fed: bool) -> Vec<LayerPlan>
 }
 
 /// Phases I and II (Peterka 2003, eqs. 1-4); a layer without thickness does not exist.
-fn strip_layers(strip: Piercing, near: f64, touching: Law) -> Vec<LayerPlan> {
-    let elastic = |stiffness: f64| Law {
+fn strip_layers(strip: Piercing, near: f64, touching: LawCoefficients) -> Vec<LayerPlan> {
+    let elastic = |stiffness: f64| LawCoefficients {
         stiffness: touching.stiffness + stiffness,
         force: stiffness * near,
         ..touching
@@ -76,7 +76,7 @@ fn strip_layers(strip: Piercing, near: f64, touching: Law) -> Vec<LayerPlan> {
             elastic(strip.stiffness + strip.friction),
         )
     });
-    let rub = |force: f64| Law {
+    let rub = |force: f64| LawCoefficients {
         force: -force,
         ..touching
     };
@@ -93,11 +93,16 @@ fn strip_layers(strip: Piercing, near: f64, touching: Law) -> Vec<LayerPlan> {
 }
 
 /// The layers of the stop itself.
-fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<LayerPlan> {
+fn stop_layers(
+    scene: &Scene,
+    free: LawCoefficients,
+    touching: LawCoefficients,
+    fed: bool,
+) -> Vec<LayerPlan> {
     let from = scene.stop_position();
     let bare_wall = scene.piercing.is_none() && scene.rigid.is_some();
     let spring = |stiffness: f64, preload: f64| {
-        let origin = Spring {
+        let origin = SpringEnergy {
             origin: from,
             energy: 0.0,
             force: preload,
@@ -168,8 +173,8 @@ fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<LayerP
 }
 
 /// The law under a stop's spring.
-fn spring_law(touching: Law, spring: &Spring) -> Law {
-    Law {
+fn spring_law(touching: LawCoefficients, spring: &SpringEnergy) -> LawCoefficients {
+    LawCoefficients {
         stiffness: touching.stiffness + spring.stiffness,
         force: spring.stiffness * spring.origin - spring.force,
         ..touching
@@ -177,13 +182,18 @@ fn spring_law(touching: Law, spring: &Spring) -> Law {
 }
 
 /// One layer from each deflection at which a slope of either way begins. What is stored is what the way back gives.
-fn slope_plans(from: f64, touching: Law, loading: &[Slope], unloading: &[Slope]) -> Vec<LayerPlan> {
+fn slope_plans(
+    from: f64,
+    touching: LawCoefficients,
+    loading: &[Slope],
+    unloading: &[Slope],
+) -> Vec<LayerPlan> {
     let same = unloading.is_empty() || unloading == loading;
     let back = if same { loading } else { unloading };
     let mut starts: Vec<f64> = loading.iter().chain(back).map(|slope| slope.from).collect();
     starts.sort_by(f64::total_cmp);
     starts.dedup();
-    let spring = |slopes: &[Slope], start: f64| Spring {
+    let spring = |slopes: &[Slope], start: f64| SpringEnergy {
         origin: from + start,
         energy: 0.0,
         force: force_of(slopes, start),
@@ -199,7 +209,7 @@ fn slope_plans(from: f64, touching: Law, loading: &[Slope], unloading: &[Slope])
         let forward = spring_law(touching, &spring(loading, start));
         plans.push(LayerPlan {
             backward: (!same).then(|| spring_law(touching, &stored)),
-            spring: Spring { energy, ..stored },
+            spring: SpringEnergy { energy, ..stored },
             ..LayerPlan::new(PhaseKind::Stop, stored.origin, forward)
         });
     }

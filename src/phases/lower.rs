@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::layer_plan::{LayerPlan, plan_layers};
 use super::{
-    Beyond, Exit, Law, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, Store, Surface, SurfaceId,
+    Beyond, Exit, LawCoefficients, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, StopEnergy,
+    Surface, SurfaceId,
 };
 use crate::events::Guard;
 use crate::flow::{LinearLaw, PowerLaw};
@@ -14,19 +15,19 @@ use crate::scene::Scene;
 impl Phases {
     /// Lowers a valid scene to its phases.
     pub(crate) fn of_scene(scene: &Scene) -> Self {
-        let free = Law {
+        let free = LawCoefficients {
             damping: scene.damping,
             stiffness: scene.stiffness,
             force: 0.0,
         };
         let drive = scene.excitation;
-        let mut lowering = Lowering {
+        let mut lowering = PhaseBuilder {
             scene: Cow::Borrowed(scene),
             side: 1.0,
             phases: Vec::with_capacity(8),
             surfaces: Vec::new(),
         };
-        lowering.add_phase(PhaseKind::Free, free, None, Store::default());
+        lowering.add_phase(PhaseKind::Free, free, None, StopEnergy::default());
         let unfed = lowering.add_stack(&plan_layers(scene, free, false));
         let fed = match scene.piercing {
             Some(_) => lowering.add_stack(&plan_layers(scene, free, true)),
@@ -52,7 +53,7 @@ impl Phases {
 }
 
 /// The phases and surfaces of a scene, as they are added.
-struct Lowering<'a> {
+struct PhaseBuilder<'a> {
     scene: Cow<'a, Scene>,
     /// 1 as the scene is, -1 where it is a mirrored one: its plans then count positions downwards.
     side: f64,
@@ -60,17 +61,17 @@ struct Lowering<'a> {
     surfaces: Vec<Surface>,
 }
 
-impl Lowering<'_> {
+impl PhaseBuilder<'_> {
     fn add_phase(
         &mut self,
         kind: PhaseKind,
-        law: Law,
+        law: LawCoefficients,
         hertz: Option<PowerLaw>,
-        store: Store,
+        store: StopEnergy,
     ) -> PhaseId {
         let (scene, drive) = (&self.scene, self.scene.excitation);
         let id = PhaseId(self.phases.len() as u32);
-        let law = Law {
+        let law = LawCoefficients {
             force: self.side * law.force,
             ..law
         };
@@ -78,7 +79,7 @@ impl Lowering<'_> {
             id,
             kind,
             law,
-            contact: Law {
+            contact: LawCoefficients {
                 damping: law.damping - scene.damping,
                 stiffness: law.stiffness - scene.stiffness,
                 force: law.force,
@@ -117,7 +118,7 @@ impl Lowering<'_> {
     }
 
     /// Adds the stack of a stop below, of the machine that is mirrored.
-    fn add_stack_below(&mut self, mirrored: Scene, free: Law) -> Stack {
+    fn add_stack_below(&mut self, mirrored: Scene, free: LawCoefficients) -> Stack {
         let plans = plan_layers(&mirrored, free, false);
         (self.scene, self.side) = (Cow::Owned(mirrored), -1.0);
         let stack = self.add_stack(&plans);
@@ -150,7 +151,7 @@ impl Lowering<'_> {
     }
 
     fn add_layer(&mut self, plan: &LayerPlan, before: Option<Layer>) -> Layer {
-        let store = Store {
+        let store = StopEnergy {
             spring: plan.spring,
             hertz: plan.hertz,
         };

@@ -8,13 +8,13 @@ mod layer_plan;
 mod lower;
 mod mode;
 mod stack;
-mod store;
+mod stop_energy;
 
 pub use id::{PhaseId, SurfaceId};
-pub(crate) use mode::Threshold;
+pub(crate) use mode::RestThreshold;
 pub use mode::{Mode, Sticking};
 use stack::{Layer, Stack};
-pub use store::{Spring, Store};
+pub use stop_energy::{SpringEnergy, StopEnergy};
 
 use std::ops::Index;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
-use crate::flow::{Drive, LinearLaw, Polynomial, PowerLaw};
+use crate::flow::{DriveAngle, LinearLaw, Polynomial, PowerLaw};
 use crate::scene::Excitation;
 
 /// What a phase is in the machine.
@@ -51,7 +51,7 @@ pub enum PhaseKind {
 
 /// m x'' + `damping` x' + `stiffness` x = `force` + F0 cos(w t + phi) + f(t).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Law {
+pub struct LawCoefficients {
     /// Damping in N s/m.
     pub damping: f64,
     /// Net stiffness in N/m, the suspension included; may be negative.
@@ -68,9 +68,9 @@ pub struct Phase {
     /// What the phase is in the machine.
     pub kind: PhaseKind,
     /// The law of the phase, or its linear part.
-    pub law: Law,
+    pub law: LawCoefficients,
     /// What stop and strip add to the suspension's law.
-    pub(crate) contact: Law,
+    pub(crate) contact: LawCoefficients,
     /// The exact flow of the linear law.
     pub flow: LinearLaw,
     /// The nonlinear part of the law.
@@ -80,7 +80,7 @@ pub struct Phase {
     /// What each guard leads to.
     pub exits: Arc<Vec<Exit>>,
     /// The energy that the stop stores.
-    pub store: Store,
+    pub store: StopEnergy,
     /// The phase that holds instead while this guard is above zero: contact does not pull.
     pub(crate) released: Option<(PhaseId, Guard)>,
     /// 1 of a stop above and of the free phase, -1 of a stop below, which presses the mass upwards.
@@ -232,7 +232,7 @@ impl Phases {
     }
 
     /// Push of drive and external force per mass, in m/s^2.
-    pub(crate) fn push(&self, drive: Drive, force: &Polynomial) -> f64 {
+    pub(crate) fn push(&self, drive: DriveAngle, force: &Polynomial) -> f64 {
         self.amplitude * drive.cos + force.value() / self.mass
     }
 

@@ -14,14 +14,14 @@ use super::{Beyond, Layer, PhaseId, PhaseKind, Phases, Surface};
 
 /// Bounces that count as rest: those lower or slower than this.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Threshold {
+pub(crate) struct RestThreshold {
     /// Least height, relative to the position of the surface.
     pub height: f64,
     /// Least speed in m/s.
     pub slowest: f64,
 }
 
-impl Threshold {
+impl RestThreshold {
     /// Four units in the last place of the position: lower bounces cannot be described.
     pub const ROUNDING: Self = Self {
         height: 4.0 * f64::EPSILON,
@@ -127,7 +127,7 @@ impl Phases {
         }
         match self.layer_at(position, fed) {
             Some(layer) if position == layer.from => {
-                let rounding = Threshold::ROUNDING;
+                let rounding = RestThreshold::ROUNDING;
                 self.mode_at_surface(&self[layer.surface], velocity, push, fed, rounding)
             }
             _ => match self.laws_at(position, velocity, fed) {
@@ -186,7 +186,7 @@ impl Phases {
         velocity: f64,
         push: f64,
         fed: bool,
-        Threshold { height, slowest }: Threshold,
+        RestThreshold { height, slowest }: RestThreshold,
     ) -> Mode {
         let beyond = self.beyond(at, fed);
         let held = self.mode_from_rest(at.sticking_at(beyond), at.position, push);
@@ -257,7 +257,7 @@ impl Phases {
         let resolution = 4.0 * f64::EPSILON * period;
         // A bounce of height h under the acceleration a takes v / a each way.
         2.0 * height < resolution * velocity.abs()
-            || height < Threshold::ROUNDING.height * at.position.abs()
+            || height < RestThreshold::ROUNDING.height * at.position.abs()
     }
 
     /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.

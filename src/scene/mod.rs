@@ -10,7 +10,7 @@ mod units;
 mod validate;
 
 pub use allowed::Allowed;
-pub use parameter::{About, Dimension, Parameter};
+pub use parameter::{Dimension, Parameter, ParameterInfo};
 pub use ratios::Ratios;
 pub use scales::{MIN_SCALE_STIFFNESS, Scales};
 pub(crate) use stop::stiffness_from;

@@ -6,7 +6,7 @@ use crate::error::SceneError;
 /// The description of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct About {
+pub struct ParameterInfo {
     /// The parameter.
     pub parameter: Parameter,
     /// Name of the parameter in TOML, in `--set`, in messages and in the FMU.
@@ -91,7 +91,7 @@ macro_rules! table {
         }
 
         /// The descriptions of all parameters, in their order.
-        const TABLE: &[About] = &[$(About {
+        const TABLE: &[ParameterInfo] = &[$(ParameterInfo {
             parameter: Parameter::$parameter,
             name: $name,
             letter: $letter,
@@ -199,7 +199,7 @@ macro_rules! place {
 
 impl Parameter {
     /// The description of this parameter.
-    pub const fn about(self) -> &'static About {
+    pub const fn about(self) -> &'static ParameterInfo {
         &TABLE[self as usize]
     }
 

@@ -2,7 +2,7 @@
 //! resets change, too.
 
 use super::phase_derivatives::PhaseDerivatives;
-use crate::flow::{Answer, ArcSolution, Source};
+use crate::flow::{ArcSolution, ForceBasis, StateAndSupply};
 use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
 use crate::phases::{Phase, Phases};
 
@@ -14,7 +14,7 @@ pub struct ParameterSensitivity<'a> {
     phases: &'a Phases,
     drive: f64,
     by: &'a [PhaseDerivatives],
-    columns: Vec<Answer>,
+    columns: Vec<StateAndSupply>,
     /// Energy in J that the drive has supplied.
     pub supplied: f64,
     /// Cosine of the drive angle at the end of the last arc.
@@ -25,7 +25,7 @@ pub struct ParameterSensitivity<'a> {
 impl<'a> ParameterSensitivity<'a> {
     /// At the start of a motion of `phases`.
     pub fn new(phases: &'a Phases, by: &'a [PhaseDerivatives]) -> Self {
-        let mut columns = vec![Answer::zeros(); 2 + by.len()];
+        let mut columns = vec![StateAndSupply::zeros(); 2 + by.len()];
         (columns[0].x, columns[1].y) = (1.0, 1.0);
         Self {
             phases,
@@ -39,8 +39,8 @@ impl<'a> ParameterSensitivity<'a> {
     }
 
     /// The columns after the arc or the crossing told last; none where the motion has no derivatives.
-    pub fn columns(&self) -> Option<&[Answer]> {
-        let finite = |column: &Answer| column.iter().all(|part| part.is_finite());
+    pub fn columns(&self) -> Option<&[StateAndSupply]> {
+        let finite = |column: &StateAndSupply| column.iter().all(|part| part.is_finite());
         (self.is_known && self.columns.iter().all(finite)).then_some(&self.columns)
     }
 
@@ -49,13 +49,13 @@ impl<'a> ParameterSensitivity<'a> {
         &self,
         (course, phase): (&ArcSolution, Option<&Phase>),
         elapsed: f64,
-    ) -> Option<(Vec<Answer>, f64)> {
+    ) -> Option<(Vec<StateAndSupply>, f64)> {
         let mass = self.phases.mass;
         let Some(phase) = phase else {
             let held = self
                 .columns
                 .iter()
-                .map(|start| Answer::new(start.x, 0.0, start.z));
+                .map(|start| StateAndSupply::new(start.x, 0.0, start.z));
             return Some((held.collect(), 0.0));
         };
         let origin = match &phase.hertz {
@@ -69,11 +69,11 @@ impl<'a> ParameterSensitivity<'a> {
             .collect();
         let logarithm = forces
             .iter()
-            .any(|forces| forces[Source::Logarithm as usize] != 0.0);
+            .any(|forces| forces[ForceBasis::Logarithm as usize] != 0.0);
         let answers = course.response(elapsed, logarithm)?;
         let columns = self.columns.iter().enumerate().map(|(index, start)| {
             // Energies are in J, answers in m.
-            let from = Answer::new(start.x, start.y, 0.0);
+            let from = StateAndSupply::new(start.x, start.y, 0.0);
             let mut end = match index.checked_sub(2) {
                 None => answers.combined(&from, &[0.0; 9]),
                 Some(index) => answers.combined(&from, &forces[index]),
@@ -93,7 +93,7 @@ impl<'a> ParameterSensitivity<'a> {
     pub fn crossing_delays(&self, crossing: &Crossing) -> Vec<f64> {
         let (v, a) = (crossing.velocity, crossing.acceleration_before);
         let places = self.surface_derivatives(crossing);
-        let delay = |(column, (place, _)): (&Answer, (f64, f64))| match crossing.kind {
+        let delay = |(column, (place, _)): (&StateAndSupply, (f64, f64))| match crossing.kind {
             CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => (place - column.x) / v,
             CrossingKind::Reversal => -column.y / a,
             CrossingKind::Switch | CrossingKind::Rest | CrossingKind::Release => 0.0,
@@ -124,7 +124,7 @@ impl Observer for ParameterSensitivity<'_> {
                 self.columns = columns;
                 self.supplied += supplied;
             }
-            None => self.columns.fill(Answer::repeat(f64::NAN)),
+            None => self.columns.fill(StateAndSupply::repeat(f64::NAN)),
         }
     }
 

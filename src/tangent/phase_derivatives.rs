@@ -2,8 +2,8 @@
 
 use crate::checked_scene::CheckedScene;
 use crate::error::{MotionError, SceneError};
-use crate::flow::{Forces, Source};
-use crate::phases::{Beyond, Law, Phase, PhaseId, PhaseKind, Phases};
+use crate::flow::{ForceBasis, ForceCoefficients};
+use crate::phases::{Beyond, LawCoefficients, Phase, PhaseId, PhaseKind, Phases};
 use crate::scene::{Dimension, Parameter, Scene};
 
 /// Relative step of a parameter between the two scenes whose phases are compared.
@@ -26,7 +26,7 @@ pub struct PhaseDerivatives {
 /// Derivatives of a linear law and of a power law.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct LawChange {
-    law: Law,
+    law: LawCoefficients,
     /// Derivatives of stiffness, exponent, dissipation and position of the face of a power law.
     hertz: [f64; 4],
 }
@@ -67,7 +67,7 @@ impl PhaseDerivatives {
             }
             let other = others.next().filter(|other| other.kind == phase.kind)?;
             let (a, b) = (&phase.law, &other.law);
-            let law = Law {
+            let law = LawCoefficients {
                 damping: slope(a.damping, b.damping) + frequency * a.damping,
                 stiffness: slope(a.stiffness, b.stiffness),
                 force: slope(a.force, b.force),
@@ -137,27 +137,33 @@ impl PhaseDerivatives {
 
     /// The forces per mass by which the parameter acts along a course in a phase, positions seen from `origin`;
     /// `drive` is the amplitude of the drive in N.
-    pub(super) fn sources(&self, phase: &Phase, mass: f64, drive: f64, origin: f64) -> Forces {
+    pub(super) fn sources(
+        &self,
+        phase: &Phase,
+        mass: f64,
+        drive: f64,
+        origin: f64,
+    ) -> ForceCoefficients {
         let LawChange { law: by, hertz } = &self.laws[phase.id.index()];
         let law = &phase.law;
         let heavier = self.mass / mass;
         let mut forces = [0.0; 9];
-        let mut add = |source: Source, force: f64| forces[source as usize] += force / mass;
+        let mut add = |source: ForceBasis, force: f64| forces[source as usize] += force / mass;
         let pull = law.force - law.stiffness * origin;
         add(
-            Source::Constant,
+            ForceBasis::Constant,
             by.force - by.stiffness * origin - heavier * pull,
         );
-        add(Source::Way, heavier * law.stiffness - by.stiffness);
-        add(Source::Velocity, heavier * law.damping - by.damping);
-        add(Source::Cosine, self.amplitude - heavier * drive);
-        add(Source::Sine, -drive * self.angle);
+        add(ForceBasis::Way, heavier * law.stiffness - by.stiffness);
+        add(ForceBasis::Velocity, heavier * law.damping - by.damping);
+        add(ForceBasis::Cosine, self.amplitude - heavier * drive);
+        add(ForceBasis::Sine, -drive * self.angle);
         if let Some(own) = &phase.hertz {
             let [stiffness, exponent, dissipation, face] = *hertz;
-            add(Source::Power, heavier * own.stiffness - stiffness);
-            add(Source::Gripped, -own.stiffness * dissipation);
-            add(Source::Logarithm, -own.stiffness * exponent);
-            add(Source::Steepness, own.stiffness * own.exponent * face);
+            add(ForceBasis::Power, heavier * own.stiffness - stiffness);
+            add(ForceBasis::Gripped, -own.stiffness * dissipation);
+            add(ForceBasis::Logarithm, -own.stiffness * exponent);
+            add(ForceBasis::Steepness, own.stiffness * own.exponent * face);
         }
         forces
     }

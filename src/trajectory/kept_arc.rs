@@ -1,6 +1,6 @@
 //! One arc of a trajectory, kept.
 
-use crate::flow::{ArcSolution, Drive};
+use crate::flow::{ArcSolution, DriveAngle};
 use crate::integrator::{Arc, Clock, Crossing, Instant, Start};
 use crate::phases::{PhaseId, PhaseKind, Phases};
 
@@ -24,7 +24,7 @@ pub struct KeptArc {
     #[doc(hidden)]
     pub crossing: Option<Crossing>,
     pub(super) side: f64,
-    pub(super) end: Option<(f64, Start, Drive)>,
+    pub(super) end: Option<(f64, Start, DriveAngle)>,
 }
 
 impl KeptArc {

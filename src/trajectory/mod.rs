@@ -23,7 +23,7 @@ const FIRST_ARC_ROOM: usize = 8;
 
 /// A mass that touches: when, and how fast.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Touch {
+pub struct ImpactEvent {
     /// When it happens.
     pub instant: Instant,
     /// Before-impact velocity in m/s.
@@ -62,9 +62,9 @@ impl Trajectory {
     }
 
     /// The impacts in order of time.
-    pub fn impacts(&self) -> impl Iterator<Item = Touch> {
+    pub fn impacts(&self) -> impl Iterator<Item = ImpactEvent> {
         self.crossings().filter_map(|crossing| {
-            Some(Touch {
+            Some(ImpactEvent {
                 instant: crossing.instant,
                 before_impact_velocity: crossing.impact_velocity()?,
             })
@@ -73,7 +73,8 @@ impl Trajectory {
 
     /// Times in s and before-impact velocities in m/s of the impacts, in order of time.
     pub fn timed_impacts(&self) -> impl Iterator<Item = (f64, f64)> {
-        let timed = |touch: Touch| (self.clock.time(touch.instant), touch.before_impact_velocity);
+        let timed =
+            |touch: ImpactEvent| (self.clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts().map(timed)
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use softstop::internals::samples::{LOADED, MachineSample, UNLOADED};
-use softstop::{Begin, Machine, Scene, Simulation, Start};
+use softstop::{InitialConditions, Machine, Scene, Simulation, Start};
 use softstop_fmi::package::{self, Library};
 use softstop_fmi::variable::Kind;
 use softstop_fmi::{Imprint, Row, Standard, Unit, parameter_set};
@@ -78,7 +78,7 @@ fn unit<U: Unit>(
 /// A machine on a motor whose torque is, at the speed of the motion, what this motion takes.
 fn variant(name: &'static str, (scene, start): (Scene, Start)) -> Result<Variant> {
     let speed = scene.excitation.frequency;
-    let mut run = Simulation::new(&scene, Begin::from(start))?;
+    let mut run = Simulation::new(&scene, InitialConditions::from(start))?;
     run.advance(TAU / speed)?;
     let taken = run.energy().supplied / TAU;
     let values = StartValues::from_scene(&scene, start)?;

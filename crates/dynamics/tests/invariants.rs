@@ -1,7 +1,7 @@
 //! What holds for the paper's machines over long runs, and where forces are in balance; what holds for every stop is in
 //! `stop_invariants`.
 
-use softstop::{Begin, PhaseKind, Ratios, Simulation, Start};
+use softstop::{InitialConditions, PhaseKind, Ratios, Simulation, Start};
 use softstop_testing::tolerance::{MOTION, ROUNDING, SOLVED};
 use softstop_testing::{assert_near, is_near, loaded};
 
@@ -171,7 +171,8 @@ fn a_step_of_force_frees_a_stuck_mass() {
         assert_eq!(held.sample().phase, PhaseKind::Stuck);
         held.set_force(&[force, 0.0]).expect("finite");
         let freed = held.sample();
-        let mut fresh = Simulation::new(&scene, Begin::from(rest).at_time(1.0)).expect("valid");
+        let mut fresh =
+            Simulation::new(&scene, InitialConditions::from(rest).at_time(1.0)).expect("valid");
         fresh.set_force(&[force, 0.0]).expect("finite");
         assert_ne!(freed.phase, PhaseKind::Stuck);
         for step in 1..=100 {

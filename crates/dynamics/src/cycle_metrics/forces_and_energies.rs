@@ -1,7 +1,7 @@
 //! Forces, powers and energies along the arcs of a motion.
 
 use super::Losses;
-use softstop::internals::{Phase, largest_value, shares};
+use softstop::internals::{Phase, largest_value, work_shares};
 use softstop::{Arc, CrossingKind, PhaseKind, Scene, Start, Trajectory};
 
 /// Phases in which the mass touches the strip.
@@ -74,7 +74,7 @@ pub(super) fn supplied_and_lost_energy(motion: &Trajectory) -> (f64, Losses) {
     let is_undamped = |phase: &Phase| phase.law.damping == scene.damping;
     for kept in &motion.arcs {
         let arc = motion.observed_arc(kept);
-        let lasting = shares(&arc, scene.mass, kept.duration);
+        let lasting = work_shares(&arc, scene.mass, kept.duration);
         supplied += lasting.supplied;
         losses.impacts += lasting.bounces;
         *match arc.kind {

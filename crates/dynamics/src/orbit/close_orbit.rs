@@ -7,7 +7,7 @@ use super::multi_segment_shooting::{MultiSegmentShooting, ShootingEvaluation, Un
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::ROUNDING;
 use softstop::internals::{LinearLaw, Motion, NextEvent, PhaseId, first_crossing};
-use softstop::{CheckedScene, Clock, Instant, Tangent, Touch};
+use softstop::{CheckedScene, Clock, ImpactEvent, Instant, Tangent};
 
 /// Share of the drive period by which an impact found by its crossing may precede the one that segments were shot to: by the
 /// square root of what Newton's method leaves, where the impact is weak.
@@ -63,7 +63,7 @@ impl MultiSegmentShooting {
         let lost: f64 = contacts
             .map(|passing| passing.tangent.damping_integral)
             .sum();
-        let touch = |&(time, velocity, _): &(f64, f64, &ContactPassage)| Touch {
+        let touch = |&(time, velocity, _): &(f64, f64, &ContactPassage)| ImpactEvent {
             instant: clock.instant(time),
             before_impact_velocity: velocity,
         };

@@ -9,7 +9,7 @@ use super::stroboscopic_map::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
 use crate::tolerance::{NEAR, NEAR_GRAZING, ROUNDING, ROUNDING_SHARE};
 use softstop::internals::turning_points;
-use softstop::{CheckedScene, Instant, MotionError, PhaseKind, Scene, Touch, Trajectory};
+use softstop::{CheckedScene, ImpactEvent, Instant, MotionError, PhaseKind, Scene, Trajectory};
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ pub struct Orbit {
     /// Velocity in m/s at time 0.
     pub velocity: f64,
     /// Its impacts within the period, in order of time from 0 on.
-    pub impacts: Vec<Touch>,
+    pub impacts: Vec<ImpactEvent>,
     /// When complete chatter ends within the period: infinitely many ever weaker impacts, of which
     /// [`Orbit::impacts`] holds those before the summed ones.
     pub rests: Vec<Instant>,
@@ -106,7 +106,7 @@ impl Orbit {
     /// Times in s and before-impact velocities in m/s of the orbit's impacts.
     pub(crate) fn timed_impacts(&self) -> Vec<(f64, f64)> {
         let clock = self.scene.clock();
-        let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
+        let timed = |touch: &ImpactEvent| (clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts.iter().map(timed).collect()
     }
 
@@ -204,8 +204,9 @@ impl Orbit {
     /// [`Excitation::reduced_phase`](softstop::Excitation::reduced_phase) has it.
     pub fn impact_angles(&self) -> impl Iterator<Item = f64> + '_ {
         let drive = self.scene.excitation;
-        let angle =
-            move |touch: &Touch| drive.frequency * touch.instant.offset + drive.reduced_phase();
+        let angle = move |touch: &ImpactEvent| {
+            drive.frequency * touch.instant.offset + drive.reduced_phase()
+        };
         self.impacts.iter().map(angle)
     }
 

@@ -6,7 +6,9 @@ use super::recurrence::{motion_size, state_distance};
 use super::{Monodromy, OrbitError};
 use crate::record_trajectory::record_trajectory;
 use crate::tolerance::{ROUNDING_SHARE, SAME};
-use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Start, Touch, Trajectory};
+use softstop::{
+    CheckedScene, Clock, ImpactEvent, Instant, MotionError, Observer, Start, Trajectory,
+};
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
 #[derive(Debug, Clone)]
@@ -26,7 +28,7 @@ pub struct Passage {
     /// Integral of damping over mass along the way, which the determinant follows from.
     pub damping_integral: f64,
     /// Impacts on the way, in order of time.
-    pub impacts: Vec<Touch>,
+    pub impacts: Vec<ImpactEvent>,
     /// Ends of complete chatter: infinitely many ever weaker impacts that end in rest, of which `impacts`
     /// holds only those before the summed ones.
     pub rests: Vec<Instant>,

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use softstop::internals::{Motion, Phase, budget, work};
-use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, Scene, Start};
+use softstop::{Arc, Clock, Crossing, CrossingKind, DriveAngle, Observer, PhaseKind, Scene, Start};
 
 use super::name;
 use super::tally::{Rest, Tally};
@@ -172,7 +172,7 @@ pub fn contact_force(
     scene: &Scene,
     phase: Option<&Phase>,
     Start { position, velocity }: Start,
-    drive: Drive,
+    drive: DriveAngle,
 ) -> f64 {
     match phase {
         Some(phase) => phase.contact_force(position, velocity),

@@ -5,12 +5,12 @@ use super::rise::{Probe, locate_rise};
 use super::step::Step;
 use super::{MethodError, Task};
 use softstop::Start;
-use softstop::internals::{Guard, Walk};
+use softstop::internals::{Guard, PhaseTracker};
 
 /// A motion under way, from crossing to crossing.
 pub(super) struct Located<'a> {
     machine: &'a mut Machine,
-    walk: Walk,
+    walk: PhaseTracker,
     /// The present step's start.
     at: Step,
 }
@@ -26,7 +26,7 @@ struct Rise {
 impl<'a> Located<'a> {
     pub fn new(machine: &'a mut Machine, task: &Task, start: Step) -> Result<Self, MethodError> {
         let mut motion = Self {
-            walk: Walk::new(&machine.scene, task.start)?,
+            walk: PhaseTracker::new(&machine.scene, task.start)?,
             machine,
             at: start,
         };

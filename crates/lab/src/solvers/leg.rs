@@ -3,7 +3,7 @@
 
 use crate::methods::MethodError;
 use softstop::Scene;
-use softstop::internals::{Guard, Phase, Walk};
+use softstop::internals::{Guard, Phase, PhaseTracker};
 use std::cell::Cell;
 
 /// Two numbers that a solver follows: position in m and velocity in m/s or, of a mass that is held, the
@@ -30,7 +30,7 @@ pub(super) struct Leg<'a> {
 
 impl<'a> Leg<'a> {
     /// The leg that follows in a walk: the motion in a phase or, while the mass is held, that of the drive.
-    pub fn new(scene: &'a Scene, walk: &'a Walk, until: f64, most_steps: u64) -> Self {
+    pub fn new(scene: &'a Scene, walk: &'a PhaseTracker, until: f64, most_steps: u64) -> Self {
         let (from, start) = (walk.time(), walk.state());
         let (push, rate) = drive(scene, from);
         Self {

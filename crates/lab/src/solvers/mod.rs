@@ -28,7 +28,7 @@ mod diffsol;
 mod leg;
 
 use crate::methods::{Integrator, MethodError, Solution, Task, Work, in_range};
-use softstop::internals::Walk;
+use softstop::internals::PhaseTracker;
 use softstop::{MotionError, Start};
 
 use leg::{Leg, Outcome, out_of_steps};
@@ -104,7 +104,8 @@ impl Integrator for Adaptive {
         in_range("tolerance", tolerance, holds, "finite and > 0")?;
         let until = task.until()?;
         let (_, follow) = self.scheme.solver();
-        let mut walk = Walk::new(&task.scene.check().map_err(MotionError::from)?, task.start)?;
+        let mut walk =
+            PhaseTracker::new(&task.scene.check().map_err(MotionError::from)?, task.start)?;
         let mut work = Work::default();
         let mut end = walk.state();
         // Within rounding of the end no solver can make a step.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use softstop::internals::work;
-use softstop::{Clock, Crossing, CrossingKind, MotionError, PhaseKind, Scene, Start, Touch};
+use softstop::{Clock, Crossing, CrossingKind, ImpactEvent, MotionError, PhaseKind, Scene, Start};
 use softstop_dynamics::internals::peak_contact_force;
 use softstop_dynamics::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 use softstop_dynamics::zone::Bounds;
@@ -71,7 +71,7 @@ impl Answers {
             lost += crossing.map_or(0.0, |crossing| crossing.lost_energy(scene.mass));
         }
         let rebounds = |it: &Crossing| matches!(it.kind, CrossingKind::Rebound { .. });
-        let impacts: Vec<Touch> = motion.impacts().collect();
+        let impacts: Vec<ImpactEvent> = motion.impacts().collect();
         let clock = motion.clock;
         let mean = |sum: f64| (!impacts.is_empty()).then(|| sum / impacts.len() as f64);
         let drives = impacts.iter().map(|impact| clock.drive(impact.instant));

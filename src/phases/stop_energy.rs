@@ -5,19 +5,19 @@ use crate::flow::PowerLaw;
 /// What a stop stores: by its linear spring and by its power law. Where contact has ceased to press,
 /// the stop is still deflected; what it then loses on its way back is dissipated.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Store {
+pub struct StopEnergy {
     /// The linear spring.
-    pub spring: Spring,
+    pub spring: SpringEnergy,
     /// The power law.
     pub hertz: Option<PowerLaw>,
 }
 
-impl Store {
+impl StopEnergy {
     /// This energy seen on a side: 1 as it is, -1 with positions counted the other way.
     pub(super) fn on_side(self, side: f64) -> Self {
-        let Spring { origin, force, .. } = self.spring;
+        let SpringEnergy { origin, force, .. } = self.spring;
         Self {
-            spring: Spring {
+            spring: SpringEnergy {
                 origin: side * origin,
                 force: side * force,
                 ..self.spring
@@ -50,7 +50,7 @@ impl Store {
 
 /// A linear spring: E = `energy` + `force` u + `stiffness` u^2 / 2 with u = x - `origin`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Spring {
+pub struct SpringEnergy {
     /// Position in m where it begins.
     pub origin: f64,
     /// Energy in J stored there.
@@ -61,7 +61,7 @@ pub struct Spring {
     pub stiffness: f64,
 }
 
-impl Spring {
+impl SpringEnergy {
     /// Energy in J stored at a position.
     pub fn energy_at(&self, position: f64) -> f64 {
         let depth = position - self.origin;

@@ -5,7 +5,7 @@ use super::reset::ResetContext;
 use super::{Impact, Start};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
-use crate::events::{Found, Guard};
+use crate::events::{FoundCrossing, Guard};
 use crate::flow::Polynomial;
 use crate::phases::{Mode, Phase, PhaseId};
 
@@ -18,7 +18,7 @@ const MOST_AT_ONCE: u32 = 1000;
 /// Bounces on a rigid stop whose sum the exact method would take are rest at once: it would come within
 /// 2^-26 of a drive period.
 #[derive(Debug, Clone)]
-pub struct Walk {
+pub struct PhaseTracker {
     scene: CheckedScene,
     mode: Mode,
     /// Guards that let go a mass that is held.
@@ -30,7 +30,7 @@ pub struct Walk {
     impacts: Vec<Impact>,
 }
 
-impl Walk {
+impl PhaseTracker {
     /// A motion of this machine from this state at time 0.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ impl Walk {
         let push = self.push();
         let (state, mode) = match self.mode {
             Mode::Moving(phase) => {
-                let found = Found {
+                let found = FoundCrossing {
                     elapsed,
                     guard,
                     position: before.position,
@@ -116,7 +116,7 @@ impl Walk {
     }
 
     /// State and mode after a crossing out of a phase, by the rules of [`ResetContext`].
-    fn reset(&mut self, phase: PhaseId, found: &Found, push: f64) -> (Start, Mode) {
+    fn reset(&mut self, phase: PhaseId, found: &FoundCrossing, push: f64) -> (Start, Mode) {
         if let Some(surface) = self.scene.phases().endless_surface(phase, found.guard) {
             self.bounce_train.count_crossing(surface, found.velocity);
         }
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn a_crossing_leads_on_by_the_rules_of_landing() {
         let scene = scene();
-        let mut walk = Walk::new(&scene, START).expect("a start");
+        let mut walk = PhaseTracker::new(&scene, START).expect("a start");
         assert_eq!(walk.guards(), [Guard::rising_to(10.0)]);
         let before = Start::new(10.0 + 1e-12, 2.5);
         walk.cross(0, 0.4, before).expect("a rebound");
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn crossings_without_end_in_one_instant_are_an_error() {
         let scene = scene();
-        let mut walk = Walk::new(&scene, START).expect("a start");
+        let mut walk = PhaseTracker::new(&scene, START).expect("a start");
         let before = Start::new(10.0, 2.5);
         let error = (0..2000).find_map(|_| walk.cross(0, 0.4, before).err());
         assert!(
