@@ -10,22 +10,22 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Cost of a crossing with the arc after it, in scan windows: a window takes some 10 ns, a crossing half a microsecond to two.
 pub(crate) const CROSSING: u64 = 64;
 /// Cost of the derivatives at a node of a scan, in windows, where a window is not passed at once.
-pub(crate) const JETS: u64 = 8;
+pub(crate) const NODE_DERIVATIVES: u64 = 8;
 /// Cost of a node that is computed anew with its derivatives, in windows.
-pub(crate) const NODE: u64 = 96;
+pub(crate) const EXACT_NODE: u64 = 96;
 /// Cost of the search of one window on its Taylor polynomial, in windows.
 pub(crate) const POLYNOMIAL: u64 = 128;
 /// Cost of a halving, in windows: of a window whose polynomial leaves open what happens, or of a bracket in which
 /// Newton's method does not converge.
 pub(crate) const HALVING: u64 = 4;
 /// Cost of zero-state responses without a closed form, in windows.
-pub(crate) const RESPONSES: u64 = 32;
+pub(crate) const ZERO_STATE_RESPONSES: u64 = 32;
 /// Further cost of zero-state responses for each doubling of their time, in windows.
 pub(crate) const DOUBLING: u64 = 8;
 /// Further cost of a Taylor step with state variations, in windows.
-pub(crate) const TANGENT: u64 = 256;
+pub(crate) const STATE_VARIATIONS: u64 = 256;
 /// Cost of a step of Newton's method for slow motion under heavy damping, in windows.
-pub(crate) const CREEP: u64 = 768;
+pub(crate) const SLOW_MANIFOLD_STEP: u64 = 768;
 /// Cost of a Taylor step, in windows: it takes a microsecond.
 pub(crate) const TAYLOR_STEP: u64 = 128;
 
@@ -45,7 +45,7 @@ impl Drop for Restore {
 
 /// Does work within a budget of its own, in windows; what came of it, and what it cost. Work that is over its budget
 /// costs all of it.
-pub fn within<T>(windows: u64, work: impl FnOnce() -> T) -> (T, u64) {
+pub fn run_within<T>(windows: u64, work: impl FnOnce() -> T) -> (T, u64) {
     let restore = Restore(LEFT.replace(windows));
     let done = work();
     let spent = windows - LEFT.get();
@@ -92,7 +92,7 @@ impl SharedBudget {
     /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
     pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> T {
         let is_open = self.spent.load(Ordering::Relaxed) < self.left;
-        let (done, spent) = within(if is_open { self.left } else { 0 }, work);
+        let (done, spent) = run_within(if is_open { self.left } else { 0 }, work);
         let add = |sum: u64| Some(sum.saturating_add(spent));
         let _ = self
             .spent
@@ -108,13 +108,13 @@ impl SharedBudget {
 
 #[cfg(test)]
 mod tests {
-    use super::{SharedBudget, charge, is_spent, within};
+    use super::{SharedBudget, charge, is_spent, run_within};
 
     #[test]
     fn work_is_charged_to_the_innermost_budget() {
-        let ((inner, spent), outer) = within(10, || {
+        let ((inner, spent), outer) = run_within(10, || {
             assert!(charge(3));
-            within(4, || {
+            run_within(4, || {
                 assert!(!charge(5));
                 is_spent()
             })
@@ -133,7 +133,7 @@ mod tests {
                 fork.charge_parts();
                 (ends, is_spent())
             };
-            within(10, all).0
+            run_within(10, all).0
         };
         assert_eq!(cost([3, 3, 3]), ([true; 3], false));
         assert!(cost([3, 3, 4]).1 && cost([4, 3, 3]).1);

@@ -28,7 +28,7 @@ fn flow_agrees_with_forty_digits() {
             position: get("position"),
             velocity: get("velocity"),
             drive: DriveAngle::at(get("drive_angle")),
-            push: Polynomial::linear(get("constant"), get("ramp")),
+            forcing: Polynomial::linear(get("constant"), get("ramp")),
             acceleration: None,
         };
         let elapsed = get("elapsed");

@@ -19,7 +19,9 @@ impl Machine {
         }
         machine.more = machine.more.afresh();
         if let [position, velocity] = *states {
-            machine.change().put(time, Start::new(position, velocity));
+            machine
+                .change()
+                .set_state(time, Start::new(position, velocity));
         }
         Ok(machine)
     }
@@ -46,7 +48,7 @@ impl Machine {
 
     /// How far the state is from an end of its law; 1 without such an end.
     pub(crate) fn margin(&self, number: usize) -> f64 {
-        let margin = self.simulation().margins(self.size()).nth(number);
+        let margin = self.simulation().guard_margins(self.size()).nth(number);
         margin.map_or(1.0, |margin| margin + SHIFT)
     }
 }

@@ -102,7 +102,7 @@ impl Machine {
     /// as the step, and few ask for them.
     pub(crate) fn close(&mut self) {
         self.more.origin = None;
-        if self.more.is_open && !self.simulation.was_free() {
+        if self.more.is_open && !self.simulation.was_free_since_checkpoint() {
             self.more.ended = Some(Box::new(self.clone()));
         }
         self.more.is_open = false;
@@ -169,7 +169,7 @@ impl Machine {
 
     /// Force on the frame in N with its first two derivatives: what pushes the mass and does not accelerate it.
     pub(crate) fn frame_force(&self) -> (f64, f64, f64) {
-        let (push, rate, curvature) = self.simulation.push();
+        let (push, rate, curvature) = self.simulation.forcing();
         let (mass, of) = (self.simulation.scene().mass, self.sample());
         (
             push - mass * of.acceleration,

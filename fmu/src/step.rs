@@ -148,7 +148,7 @@ impl Machine {
         }
         self.more.is_open = false;
         let mut origin = Box::new(self.clone());
-        origin.change().mark();
+        origin.change().set_checkpoint();
         match self.go_in_pieces(until, halt, &mut effort, events) {
             Ok(Advance::Short { reason, .. }) => Ok(Advance::Short {
                 reason,
@@ -225,7 +225,7 @@ impl Machine {
             None => simulation.watch(until, effort),
             Some(halt) => simulation.watch_before(until, Some(halt), &mut (effort, &mut passes)),
         };
-        let (outcome, _) = budget::within(BACKSTOP, backstop);
+        let (outcome, _) = budget::run_within(BACKSTOP, backstop);
         if passes.0 {
             events.note();
         }
@@ -258,7 +258,7 @@ impl Machine {
             Err(error) => return Err(error.into()),
         };
         if let Some(force) = force {
-            let work = self.simulation().work_of(&force)?;
+            let work = self.simulation().work_since_checkpoint(&force)?;
             self.more.external.count(work);
         }
         Ok(outcome)

@@ -118,7 +118,9 @@ impl Machine {
         let mut machine = if is_present {
             self.clone()
         } else {
-            let simulation = begin.simulation().at_mark(position, velocity)?;
+            let simulation = begin
+                .simulation()
+                .displaced_at_checkpoint(position, velocity)?;
             Self::new(simulation, begin.more.clone().afresh())
         };
         for &(known, seed) in direction {

@@ -148,7 +148,7 @@ impl Unit for Machine {
 
     fn keep_law(&mut self, of: &Self) {
         let of = of.simulation().clone();
-        self.change().keep_law(&of);
+        self.change().continue_law_of(&of);
     }
 
     fn nominals(&self) -> Vec<f64> {
@@ -175,7 +175,7 @@ impl Unit for Machine {
 
     fn mark(&mut self) {
         self.close();
-        self.change().mark();
+        self.change().set_checkpoint();
     }
 
     fn has_tangent(&self, known: Known) -> bool {
@@ -184,7 +184,7 @@ impl Unit for Machine {
             Known::Signal(_) | Known::State(_) => true,
             Known::Parameter(slot) => {
                 [slot::INITIAL_POSITION, slot::INITIAL_VELOCITY].contains(&slot)
-                    && begin.simulation().is_marked_at_start()
+                    && begin.simulation().is_checkpoint_at_start()
             }
         }
     }

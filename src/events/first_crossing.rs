@@ -76,7 +76,7 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64
                 }
             }
         }
-        budget::charge(budget::JETS);
+        budget::charge(budget::NODE_DERIVATIVES);
         let known = reached.filter(|jets| jets.node.elapsed == node.elapsed);
         let left = known.unwrap_or_else(|| NodeDerivatives::new(course, node));
         let right = NodeDerivatives::new(
@@ -147,7 +147,7 @@ impl Scan<'_> {
         self.single_rise((0, guard), (left, right), ends, (bound, rounding))
     }
 
-    /// The first rise of one guard, which does not ask for the push, by its values at the ends and a bound on its fourth
+    /// The first rise of one guard, which does not ask for the forcing, by its values at the ends and a bound on its fourth
     /// derivative.
     #[inline]
     fn single_rise(
@@ -239,7 +239,7 @@ impl Scan<'_> {
         if !self.guards.iter().any(can_rise) {
             return None;
         }
-        if !budget::charge(budget::NODE) {
+        if !budget::charge(budget::EXACT_NODE) {
             return None;
         }
         let middle = NodeDerivatives::new(self.course, self.course.node_at(half));
@@ -265,7 +265,7 @@ impl Scan<'_> {
             {
                 continue;
             }
-            let is_simple = guard.push == 0.0 && self.course.is_closed_form();
+            let is_simple = guard.forcing == 0.0 && self.course.is_closed_form();
             let single = is_simple.then(|| {
                 let (nodes, doubt) = (
                     (&left.node, &right.node),

@@ -1,18 +1,18 @@
-//! What ends a phase: a linear function of state and push that rises through zero.
+//! What ends a phase: a linear function of state and forcing that rises through zero.
 
 use crate::flow::{ArcSolution, DEGREE, ScanNode, TaylorPolynomials};
 
-/// g = `position` x + `velocity` v + `push` q - `level`; the event is g rising through zero.
+/// g = `position` x + `velocity` v + `forcing` q - `level`; the event is g rising through zero.
 ///
-/// q is the push per mass, p(t) + A cos(angle): the force that is not the phase's own spring or damper.
+/// q is the forcing per mass, p(t) + A cos(angle): the force that is not the phase's own spring or damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guard {
     /// Weight of the position, in 1/m.
     pub position: f64,
     /// Weight of the velocity, in s/m.
     pub velocity: f64,
-    /// Weight of the push, in s^2/m.
-    pub push: f64,
+    /// Weight of the forcing, in s^2/m.
+    pub forcing: f64,
     /// Level to be crossed.
     pub level: f64,
 }
@@ -22,7 +22,7 @@ impl Guard {
     pub(crate) const NONE: Self = Self {
         position: 0.0,
         velocity: 0.0,
-        push: 0.0,
+        forcing: 0.0,
         level: 0.0,
     };
 
@@ -60,19 +60,19 @@ impl Guard {
         }
     }
 
-    /// The push per mass rises above `level` m/s^2.
-    pub const fn push_above(level: f64) -> Self {
+    /// The forcing per mass rises above `level` m/s^2.
+    pub const fn forcing_above(level: f64) -> Self {
         Self {
-            push: 1.0,
+            forcing: 1.0,
             level,
             ..Self::NONE
         }
     }
 
-    /// The push per mass falls below `level` m/s^2.
-    pub const fn push_below(level: f64) -> Self {
+    /// The forcing per mass falls below `level` m/s^2.
+    pub const fn forcing_below(level: f64) -> Self {
         Self {
-            push: -1.0,
+            forcing: -1.0,
             level: -level,
             ..Self::NONE
         }
@@ -83,12 +83,12 @@ impl Guard {
         Self {
             position: -self.position,
             velocity: -self.velocity,
-            push: -self.push,
+            forcing: -self.forcing,
             level: -self.level,
         }
     }
 
-    /// g of positions, velocities and pushes that are counted the other way.
+    /// g of positions, velocities and forcings that are counted the other way.
     pub(crate) fn mirrored(&self) -> Self {
         Self {
             level: self.level,
@@ -96,23 +96,23 @@ impl Guard {
         }
     }
 
-    /// The rounding that g may carry at a state under a push.
-    pub(super) fn rounding_at(&self, position: f64, velocity: f64, push: f64) -> f64 {
+    /// The rounding that g may carry at a state under a forcing.
+    pub(super) fn rounding_at(&self, position: f64, velocity: f64, forcing: f64) -> f64 {
         let terms = [
             self.position * position,
             self.velocity * velocity,
-            self.push * push,
+            self.forcing * forcing,
             self.level,
         ];
         2.0 * f64::EPSILON * terms.iter().map(|term| term.abs()).sum::<f64>() + f64::MIN_POSITIVE
     }
 
-    /// True if neither velocity nor push matters.
+    /// True if neither velocity nor forcing matters.
     pub(super) fn asks_for_position(&self) -> bool {
-        self.velocity == 0.0 && self.push == 0.0
+        self.velocity == 0.0 && self.forcing == 0.0
     }
 
-    /// g at a state, for a guard that does not ask for the push.
+    /// g at a state, for a guard that does not ask for the forcing.
     pub fn value_at(&self, position: f64, velocity: f64) -> f64 {
         self.position * position + self.velocity * velocity - self.level
     }
@@ -131,15 +131,16 @@ impl Guard {
                 weight * low
             }
         };
-        most(self.position, course.position_range(node)) + most(self.push, course.push_range())
+        most(self.position, course.position_range(node))
+            + most(self.forcing, course.forcing_range())
             < self.level
     }
 
     /// Taylor coefficients of g about the expansion point.
     pub(crate) fn taylor_coefficients(&self, taylor: &TaylorPolynomials) -> [f64; DEGREE + 1] {
-        let (x, q) = (&taylor.position, &taylor.push);
+        let (x, q) = (&taylor.position, &taylor.forcing);
         let mut g: [f64; DEGREE + 1] =
-            std::array::from_fn(|n| self.position * x[n] + self.push * q[n]);
+            std::array::from_fn(|n| self.position * x[n] + self.forcing * q[n]);
         if self.velocity != 0.0 {
             for (n, c) in x.iter().enumerate().skip(1) {
                 g[n - 1] += self.velocity * n as f64 * c;

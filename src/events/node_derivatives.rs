@@ -4,12 +4,12 @@ use super::first_rise::GuardPoint;
 use super::guard::Guard;
 use crate::flow::{ArcSolution, LinearLaw, ScanNode, ScanWindow};
 
-/// Derivatives of position (of order 0 to 6) and push (0 to 4) at a node.
+/// Derivatives of position (of order 0 to 6) and forcing (0 to 4) at a node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NodeDerivatives {
     pub node: ScanNode,
     position: [f64; 7],
-    push: [f64; 5],
+    forcing: [f64; 5],
     /// Amplitude of the drive on the mass, in m/s^2: none while it is held.
     drive: f64,
 }
@@ -28,11 +28,11 @@ impl NodeDerivatives {
     #[inline(always)]
     pub fn new(course: &ArcSolution, node: ScanNode) -> Self {
         let flow = &course.flow;
-        let (constant, ramp) = course.linear_push_at(node.elapsed);
+        let (constant, ramp) = course.linear_forcing_at(node.elapsed);
         let (w, a) = (flow.frequency, flow.amplitude);
         let (cos, sin) = (a * node.drive.cos, a * w * node.drive.sin);
         let square = w * w;
-        let push = [
+        let forcing = [
             constant + cos,
             ramp - sin,
             -square * cos,
@@ -45,7 +45,7 @@ impl NodeDerivatives {
             let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
             for n in 0..5 {
                 let pull = b * position[n];
-                position[n + 2] = (push[n] - pull) - twice_decay * position[n + 1];
+                position[n + 2] = (forcing[n] - pull) - twice_decay * position[n + 1];
                 // From rest the arc starts with the acceleration that its phase was chosen by.
                 if n == 0
                     && let Some(chosen) = course.departure.acceleration
@@ -58,7 +58,7 @@ impl NodeDerivatives {
         Self {
             node,
             position,
-            push,
+            forcing,
             drive: if held { 0.0 } else { a },
         }
     }
@@ -68,7 +68,7 @@ impl NodeDerivatives {
         std::array::from_fn(|n| self.position[n] * INVERSE_FACTORIALS[n])
     }
 
-    /// Taylor coefficients of g, for a guard that does not ask for the push.
+    /// Taylor coefficients of g, for a guard that does not ask for the forcing.
     pub fn guard_series(&self, guard: &Guard) -> [f64; 6] {
         let x = &self.position;
         let mut series: [f64; 6] = std::array::from_fn(|n| {
@@ -80,16 +80,16 @@ impl NodeDerivatives {
 
     /// The rounding that g may carry at this node.
     pub fn guard_rounding(&self, guard: &Guard) -> f64 {
-        guard.rounding_at(self.position[0], self.position[1], self.push[0])
+        guard.rounding_at(self.position[0], self.position[1], self.forcing[0])
     }
 
     /// g and g' at this node.
     #[inline(always)]
     pub fn guard_value_and_rate(&self, guard: &Guard) -> (f64, f64) {
-        let (x, q) = (&self.position, &self.push);
+        let (x, q) = (&self.position, &self.forcing);
         (
-            guard.position * x[0] + guard.velocity * x[1] + guard.push * q[0] - guard.level,
-            guard.position * x[1] + guard.velocity * x[2] + guard.push * q[1],
+            guard.position * x[0] + guard.velocity * x[1] + guard.forcing * q[0] - guard.level,
+            guard.position * x[1] + guard.velocity * x[2] + guard.forcing * q[1],
         )
     }
 
@@ -103,13 +103,13 @@ impl NodeDerivatives {
         let third = x[3].abs() * c + x[4].abs() * s + drive * flow.frequency * span * s;
         guard.position.abs() * second
             + guard.velocity.abs() * third
-            + guard.push.abs() * flow.amplitude * square
+            + guard.forcing.abs() * flow.amplitude * square
     }
 
     /// Bound on |g''''| over `span` seconds from this node.
     ///
     /// The fourth derivative of the position obeys the phase's own equation under the fourth
-    /// derivative of the push, which is at most A w^4: variation of constants with the bounds on
+    /// derivative of the forcing, which is at most A w^4: variation of constants with the bounds on
     /// the fundamental solutions gives |x''''| <= |x4| C + |x5| S + A w^4 span S.
     #[inline(always)]
     pub fn bound_g4(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
@@ -118,7 +118,7 @@ impl NodeDerivatives {
         let drive = self.drive * square * square;
         let fourth = x[4].abs() * c + x[5].abs() * s + drive * span * s;
         let mut bound =
-            guard.position.abs() * fourth + guard.push.abs() * flow.amplitude * square * square;
+            guard.position.abs() * fourth + guard.forcing.abs() * flow.amplitude * square * square;
         if guard.velocity != 0.0 {
             let fifth = x[5].abs() * c + x[6].abs() * s + drive * flow.frequency * span * s;
             bound += guard.velocity.abs() * fifth;
@@ -127,7 +127,7 @@ impl NodeDerivatives {
     }
 
     /// True if g < 0 for `span` seconds, at most a scan window, from this node on, or from right after it on if g = 0
-    /// there, for a guard that does not ask for the push.
+    /// there, for a guard that does not ask for the forcing.
     pub fn stays_below(&self, flow: &LinearLaw, guard: &Guard, span: f64) -> bool {
         let [value, rate, second, third, ..] = self.guard_series(guard);
         let fourth = self.bound_g4(flow, guard, span, flow.window_bounds) / 24.0;
@@ -212,6 +212,7 @@ pub(crate) fn is_clear_near_start(course: &ArcSolution, guards: &[Guard], until:
         return false;
     }
     let jets = NodeDerivatives::new(course, course.start_node());
-    let stays = |guard: &Guard| guard.push == 0.0 && jets.stays_below(&course.flow, guard, until);
+    let stays =
+        |guard: &Guard| guard.forcing == 0.0 && jets.stays_below(&course.flow, guard, until);
     guards.iter().all(stays)
 }

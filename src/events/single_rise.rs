@@ -13,7 +13,7 @@ const SHORT_STEP_SHARE: f64 = 1.0 / 512.0;
 /// Most states that are evaluated before one is close enough.
 const MAX_EVALUATIONS: usize = 4;
 
-/// Time since departure, position and velocity where `guard`, which does not ask for the push, rises through zero
+/// Time since departure, position and velocity where `guard`, which does not ask for the forcing, rises through zero
 /// between `left` and `right`, where it rises once at most; none if it takes more to tell.
 pub(super) fn locate_single_rise(
     course: &ArcSolution,

@@ -15,7 +15,7 @@ pub(super) fn crossing_on_step(
     let (from, to) = (segment.sigma_after(node.elapsed), segment.reach);
     let (position, velocity) = segment.last_state();
     let finite = position.is_finite() && velocity.is_finite();
-    let held = segment.is_still() && !segment.push_at(to).is_finite();
+    let held = segment.is_still() && !segment.forcing_at(to).is_finite();
     if !(to > 0.0 && finite) || held {
         return NextEvent::Unbounded(node);
     }
@@ -24,7 +24,7 @@ pub(super) fn crossing_on_step(
             return None;
         }
         let coefficients =
-            segment.guard_series(guard.position, guard.velocity, guard.push, guard.level);
+            segment.guard_series(guard.position, guard.velocity, guard.forcing, guard.level);
         if series_stays_below(&coefficients, to) {
             return None;
         }

@@ -8,7 +8,7 @@ use super::departure::ScanNode;
 use super::linear_law::LARGEST_LOSS;
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
-use super::taylor::linear_push_series;
+use super::taylor::linear_forcing_series;
 use super::zero_state_responses::ZeroStateResponses;
 use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorPolynomials, TaylorStep};
 
@@ -43,7 +43,7 @@ pub(super) enum Form {
 impl Form {
     fn new(flow: &LinearLaw, departure: &Departure) -> Self {
         match flow.steady {
-            _ if !departure.push.is_linear() => {
+            _ if !departure.forcing.is_linear() => {
                 Self::TaylorStep(Arc::new(TaylorStep::of_linear_law(flow, departure, 0.0)))
             }
             Some(steady) if closed_form_is_accurate(flow, departure) => {
@@ -61,7 +61,7 @@ impl Form {
 }
 
 impl ArcSolution {
-    /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
+    /// The motion of `flow` from `departure`; under a forcing of degree 2 or higher, one step of it.
     pub fn new(flow: &LinearLaw, departure: Departure) -> Self {
         Self::with_form(flow, departure, Form::new(flow, &departure))
     }
@@ -133,9 +133,9 @@ impl ArcSolution {
         }
     }
 
-    /// A mass held at the departure's position while the drive turns; under a push of degree 2 or higher, for one step.
+    /// A mass held at the departure's position while the drive turns; under a forcing of degree 2 or higher, for one step.
     pub fn held(flow: &LinearLaw, departure: Departure) -> Self {
-        let form = if departure.push.is_linear() {
+        let form = if departure.forcing.is_linear() {
             Form::Held
         } else {
             Form::TaylorStep(Arc::new(TaylorStep::of_held_mass(flow, &departure)))
@@ -209,22 +209,23 @@ impl ArcSolution {
         let answers = ZeroStateResponses::after_time(&flow.modes, flow.frequency, elapsed);
         let DriveAngle { cos, sin } = from.drive;
         let state = free
-            + (from.push.value() * answers.constant
-                + from.push.rate() * answers.ramp
+            + (from.forcing.value() * answers.constant
+                + from.forcing.rate() * answers.ramp
                 + flow.amplitude * (cos * answers.cosine - sin * answers.sine));
         (state.x, state.y)
     }
 
-    /// Value and rate of a linear push per mass, `elapsed` seconds after departure.
-    pub(crate) fn linear_push_at(&self, elapsed: f64) -> (f64, f64) {
-        let push = &self.departure.push;
-        (push.value() + push.rate() * elapsed, push.rate())
+    /// Value and rate of a linear forcing per mass, `elapsed` seconds after departure.
+    pub(crate) fn linear_forcing_at(&self, elapsed: f64) -> (f64, f64) {
+        let forcing = &self.departure.forcing;
+        (forcing.value() + forcing.rate() * elapsed, forcing.rate())
     }
 
     /// Taylor polynomials about a node.
     pub(crate) fn expand(&self, node: &ScanNode) -> TaylorPolynomials {
-        let push = linear_push_series(&self.flow, node.drive, self.linear_push_at(node.elapsed));
-        let taylor = TaylorPolynomials::expand(&self.flow, (node.position, node.velocity), push);
+        let forcing =
+            linear_forcing_series(&self.flow, node.drive, self.linear_forcing_at(node.elapsed));
+        let taylor = TaylorPolynomials::expand(&self.flow, (node.position, node.velocity), forcing);
         match self.departure.acceleration {
             _ if self.is_held() => taylor.held_at(node.position),
             Some(acceleration) if node.elapsed == 0.0 => {
@@ -267,21 +268,21 @@ impl ArcSolution {
     }
 
     /// Bounds on the external force per mass, c + r t, together with the drive, to the end of time: infinite unless r = 0.
-    pub(crate) fn push_range(&self) -> (f64, f64) {
-        let push = &self.departure.push;
-        if push.rate() == 0.0 {
-            widened_interval(push.value(), self.flow.amplitude)
+    pub(crate) fn forcing_range(&self) -> (f64, f64) {
+        let forcing = &self.departure.forcing;
+        if forcing.rate() == 0.0 {
+            widened_interval(forcing.value(), self.flow.amplitude)
         } else {
             (f64::NEG_INFINITY, f64::INFINITY)
         }
     }
 
-    /// The push per mass in m/s^2, `elapsed` seconds after departure.
-    pub(crate) fn push(&self, elapsed: f64) -> f64 {
+    /// The forcing per mass in m/s^2, `elapsed` seconds after departure.
+    pub(crate) fn forcing_at(&self, elapsed: f64) -> f64 {
         if let Form::TaylorStep(segment) = &self.form {
-            return segment.push_at(segment.sigma_after(elapsed));
+            return segment.forcing_at(segment.sigma_after(elapsed));
         }
-        self.linear_push_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
+        self.linear_forcing_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
     }
 
     /// The drive `elapsed` seconds after departure.
@@ -304,7 +305,7 @@ fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
 fn closed_form_is_accurate(flow: &LinearLaw, from: &Departure) -> bool {
     let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
     let stiff = w * w <= LARGEST_LOSS * b;
-    let (constant, ramp) = (from.push.value(), from.push.rate());
+    let (constant, ramp) = (from.forcing.value(), from.forcing.rate());
     let at_rest = constant == 0.0 && ramp == 0.0;
     let small = from.position.abs().max(from.velocity.abs() / w) * LARGEST_LOSS;
     at_rest || stiff || (ramp == 0.0 && constant.abs() <= small * b)

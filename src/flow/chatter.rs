@@ -6,7 +6,7 @@
 //! ratio of speeds is q = R sqrt(A/B).
 //!
 //! What is left out: on the way the accelerations change by at most D = 2 (r T + c w + k h), with r the
-//! largest rate of the push meanwhile, c and k damping and stiffness per mass, h the height of the first bounce. Each
+//! largest rate of the forcing meanwhile, c and k damping and stiffness per mass, h the height of the first bounce. Each
 //! bounce's time and speed change by a factor within 1 +- D / A, so T is wrong by at most D T / A and a
 //! speed by D T. The sum is taken only where both are below rounding. Where another law holds on the way
 //! back it is taken earlier: there the mass turns at a position that is rounded, which falsifies a bounce
@@ -46,7 +46,7 @@ pub(crate) struct PressingForces {
     /// Bound on the rate of the drive in m/s^3.
     pub drive_rate: f64,
     /// External force per mass from now on, in m/s^2.
-    pub push: Polynomial,
+    pub forcing: Polynomial,
     /// Damping in 1/s.
     pub damping: f64,
     /// Stiffness in 1/s^2.
@@ -58,9 +58,9 @@ pub(crate) struct PressingForces {
 }
 
 impl PressingForces {
-    /// Bound in m/s^2 on what the push changes by within `duration`.
-    fn push_change(&self, duration: f64) -> f64 {
-        (self.drive_rate + self.push.largest_rate(duration)) * duration
+    /// Bound in m/s^2 on what the forcing changes by within `duration`.
+    fn forcing_change(&self, duration: f64) -> f64 {
+        (self.drive_rate + self.forcing.largest_rate(duration)) * duration
     }
 }
 
@@ -82,7 +82,7 @@ impl Chatter {
             ratio,
         };
         let change = |sum: &Self| {
-            2.0 * (by.push_change(sum.duration) + by.damping * speed + by.stiffness * height)
+            2.0 * (by.forcing_change(sum.duration) + by.damping * speed + by.stiffness * height)
         };
         let ratio = restitution * (back / out).sqrt();
         let sum = Some(series(ratio)).filter(|_| ratio < 1.0);
@@ -92,9 +92,9 @@ impl Chatter {
         };
         let low = |roundings: f64| by.grain.is_some_and(|grain| height <= roundings * grain);
         let rough = |sum: &Self| low(ROUGH) && change(sum) <= STEADY * weakest;
-        // What is lost in rounding: a series that the push outlasts, or else a last bounce.
+        // What is lost in rounding: a series that the forcing outlasts, or else a last bounce.
         let lost = || {
-            let steady = |sum: &Self| by.push_change(sum.duration) <= STEADY * weakest;
+            let steady = |sum: &Self| by.forcing_change(sum.duration) <= STEADY * weakest;
             low(FINEST).then(|| sum.filter(steady).unwrap_or(series(0.0)))
         };
         sum.filter(|sum| exact(sum) || rough(sum)).or_else(lost)
@@ -145,7 +145,7 @@ mod tests {
         PressingForces {
             accelerations: (out, back),
             drive_rate: 0.3,
-            push: Polynomial::linear(7.0, -0.2),
+            forcing: Polynomial::linear(7.0, -0.2),
             damping: 0.0,
             stiffness: 0.0,
             period: 20.0,

@@ -14,7 +14,8 @@ pub struct Departure {
     /// Where the drive stands.
     pub drive: DriveAngle,
     /// Force per mass in m/s^2, as it changes from the departure on: the external one and the law's own constant one.
-    pub push: Polynomial,
+    #[serde(rename = "push")]
+    pub forcing: Polynomial,
     /// Acceleration in m/s^2 from rest, where the phase was chosen by it: the arc then starts with this very number.
     pub acceleration: Option<f64>,
 }
@@ -29,7 +30,7 @@ impl Departure {
                 cos: -self.drive.cos,
                 sin: -self.drive.sin,
             },
-            push: self.push.mirrored(),
+            forcing: self.forcing.mirrored(),
             acceleration: self.acceleration.map(|acceleration| -acceleration),
         }
     }

@@ -23,18 +23,18 @@ const REACH: f64 = 0.125;
 type ResponseSeries = [f64; TERMS];
 
 impl LinearLaw {
-    /// The answers of a motion from a departure under a constant push.
+    /// The answers of a motion from a departure under a constant forcing.
     pub(super) fn response(&self, from: &Departure, elapsed: f64) -> ParameterResponse {
         let (modes, w) = (&self.modes, self.frequency);
         let found = self.doubled_response(elapsed);
         let Departure {
             drive, velocity, ..
         } = from;
-        let push = from.push.value() - modes.stiffness * from.position;
+        let forcing = from.forcing.value() - modes.stiffness * from.position;
         let along = SVector::from([
             0.0,
             *velocity,
-            push,
+            forcing,
             self.amplitude * drive.cos,
             -self.amplitude * drive.sin,
         ]);

@@ -86,9 +86,9 @@ impl LinearLaw {
         2.0 * self.modes.decay
     }
 
-    /// x'' in m/s^2 of a state under `push` per mass.
-    pub fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
-        push - 2.0 * self.modes.decay * v - self.modes.stiffness * x
+    /// x'' in m/s^2 of a state under `forcing` per mass.
+    pub fn acceleration(&self, x: f64, v: f64, forcing: f64) -> f64 {
+        forcing - 2.0 * self.modes.decay * v - self.modes.stiffness * x
     }
 }
 

@@ -3,7 +3,7 @@
 //! Every linear phase obeys x'' + 2 a x' + b x = p(t) + A cos(angle + w t). [`LinearLaw`] holds a, b, A and w and what
 //! can be computed once; a [`ArcSolution`] is one motion along it. Three evaluations share the work, each where it is
 //! free of cancellation: a Taylor series for short times, the particular solution plus the free modes for ordinary
-//! ones, and zero-state responses by doubling where the particular solution blows up. They answer a push p = c + r t.
+//! ones, and zero-state responses by doubling where the particular solution blows up. They answer a forcing p = c + r t.
 //! Under a [`Polynomial`] of higher degree, and in a phase with a power law ([`PowerLaw`]), the motion is followed in
 //! Taylor steps, each a course of its own.
 

@@ -1,6 +1,6 @@
 //! The motion soon after a departure, by the Taylor series about it, with no more terms than it needs.
 //!
-//! Each term obeys the law itself: with T_n = c_n t^n and Q_n = q_n t^n of position and push,
+//! Each term obeys the law itself: with T_n = c_n t^n and Q_n = q_n t^n of position and forcing,
 //! (n + 1)(n + 2) T_(n+2) = t^2 Q_n - 2 a t (n + 1) T_(n+1) - b t^2 T_n.
 
 use super::{Departure, LinearLaw};
@@ -28,7 +28,7 @@ const FACTORS: [[[f64; 3]; 2]; (MOST_TERMS - 3) / 2] = {
     table
 };
 
-/// What position and velocity have changed by under a linear push, up to half a reach after the departure.
+/// What position and velocity have changed by under a linear forcing, up to half a reach after the departure.
 pub(super) fn change_near_start(flow: &LinearLaw, from: &Departure, elapsed: f64) -> (f64, f64) {
     if elapsed == 0.0 {
         return (0.0, 0.0);
@@ -39,16 +39,16 @@ pub(super) fn change_near_start(flow: &LinearLaw, from: &Departure, elapsed: f64
     let (angle, square) = (flow.frequency * elapsed, elapsed * elapsed);
     let damping = flow.damping() * elapsed;
     let stiffness = flow.modes.stiffness * square;
-    let push = from.push.value() + flow.amplitude * from.drive.cos;
+    let forcing = from.forcing.value() + flow.amplitude * from.drive.cos;
     let start = from
         .acceleration
-        .unwrap_or_else(|| flow.acceleration(from.position, from.velocity, push));
+        .unwrap_or_else(|| flow.acceleration(from.position, from.velocity, forcing));
     // Of order n and n + 1, times t^2.
     let amplitude = square * flow.amplitude;
     let turn = -angle * angle;
     let mut odd = -amplitude * from.drive.sin * angle;
     let mut even = 0.5 * turn * amplitude * from.drive.cos;
-    let mut ramp = square * elapsed * from.push.rate();
+    let mut ramp = square * elapsed * from.forcing.rate();
     let (mut first, mut second) = (from.velocity * elapsed, 0.5 * start * square);
     let (mut way, mut rise) = (0.0, 0.0);
     for [one, other] in &FACTORS[..(terms - 3) / 2] {

@@ -71,7 +71,7 @@ impl ArcSolution {
                 forced: [StateAndSupply::zeros(); 9],
                 travel: (0.0, 0.0),
             }),
-            Form::Particular { .. } | Form::Responses if self.departure.push.rate() == 0.0 => {
+            Form::Particular { .. } | Form::Responses if self.departure.forcing.rate() == 0.0 => {
                 Some(self.flow.response(&self.departure, elapsed))
             }
             Form::TaylorStep(segment)

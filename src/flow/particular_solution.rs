@@ -18,8 +18,8 @@ impl ParticularSolution {
     /// With offset + slope t = (c + r t)/b - 2 a r/b^2.
     pub fn new(flow: &LinearLaw, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
         let b = flow.modes.stiffness;
-        let slope = from.push.rate() / b;
-        let offset = (from.push.value() - 2.0 * flow.modes.decay * slope) / b;
+        let slope = from.forcing.rate() / b;
+        let offset = (from.forcing.value() - 2.0 * flow.modes.decay * slope) / b;
         Self {
             offset,
             slope,

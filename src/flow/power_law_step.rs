@@ -6,7 +6,7 @@ use super::power_law::PowerLaw;
 use super::series::{majorant, value};
 use super::slow_manifold::SlowEquation;
 use super::sphere::is_sphere;
-use super::taylor::push_series;
+use super::taylor::forcing_series;
 use super::taylor_step::TaylorStep;
 use super::{Departure, LinearLaw};
 
@@ -66,24 +66,24 @@ impl TaylorStep {
         if span.is_nan() || span <= LONGER * usual {
             return None;
         }
-        let push = push_series(flow, from);
-        let span = if from.push.is_linear() {
+        let forcing = forcing_series(flow, from);
+        let span = if from.forcing.is_linear() {
             span
         } else {
-            span.min(first_span(&push))
+            span.min(first_span(&forcing))
         };
-        let mut load = push;
+        let mut load = forcing;
         load[0] -= flow.modes.stiffness * hertz.origin;
         let equation = SlowEquation {
             twice_decay: 2.0 * flow.modes.decay,
             stiffness: flow.modes.stiffness,
             hertz,
-            push: &load,
+            forcing: &load,
         };
         let slow_manifold = equation.slow_motion((deflection, from.velocity), span)?;
         let mut segment = Self::without_motion(flow, hertz);
         segment.depth = slow_manifold.depth;
-        segment.push = push;
+        segment.forcing = forcing;
         segment.is_pressed = true;
         segment.slow_manifold = Some(Box::new(slow_manifold));
         let holds =

@@ -33,7 +33,7 @@ impl TaylorStep {
             (regularized, holds)
         };
         // What is below rounding of the velocity is so of the root.
-        segment.reach = holds.min(regularized.reach_within(flow.reach, from.push.is_linear()));
+        segment.reach = holds.min(regularized.reach_within(flow.reach, from.forcing.is_linear()));
         if !segment.is_pressed && hertz.stiffness > 0.0 {
             let bounds =
                 [segment.depth, regularized.velocity, regularized.time].map(|s| majorant(&s));
@@ -80,7 +80,7 @@ impl TaylorStep {
         );
         let mut rates = PowerRecurrence::new(index - 1.0, root);
         let mut steepnesses = PowerRecurrence::new(index * (hertz.exponent - 1.0), root);
-        let mut rungs = ForcingSeries::new(&from.push);
+        let mut rungs = ForcingSeries::new(&from.forcing);
         let share = 1.0 / index;
         for k in 0..=DEGREE {
             roots.set_coefficient(k, s[k]);
@@ -90,21 +90,21 @@ impl TaylorStep {
             // The deflection itself, not the power of its rounded root: a surface may stand there.
             self.depth[k] = if k == 0 { deflection } else { rate.times(s, k) };
             power[k] = steepness.times(&self.depth, k);
-            let mut push = flow.amplitude * cos[k] + from.push.rate() * t[k];
+            let mut forcing = flow.amplitude * cos[k] + from.forcing.rate() * t[k];
             if let Some(rungs) = &mut rungs {
-                push += rungs.coefficient(&rate, k);
+                forcing += rungs.coefficient(&rate, k);
             }
             let mut pull = b * self.depth[k];
             if k == 0 {
-                push += from.push.value();
+                forcing += from.forcing.value();
                 pull += b * hertz.origin;
             }
-            self.push[k] = push;
+            self.forcing[k] = forcing;
             let mut press = power[k];
             if lambda > 0.0 {
                 press += lambda * convolve(&power, v, k);
             }
-            acceleration[k] = push - twice_decay * v[k] - pull - kappa * press;
+            acceleration[k] = forcing - twice_decay * v[k] - pull - kappa * press;
             if k == DEGREE {
                 break;
             }

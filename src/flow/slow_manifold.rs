@@ -24,18 +24,18 @@ const LIFETIMES: f64 = 30.0;
 /// Largest deviation of a start from the slow motion, in roundings.
 const ALLOWED: f64 = 64.0 * f64::EPSILON;
 
-/// The equation of motion in contact, d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 + lambda d') = `push`, as
+/// The equation of motion in contact, d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 + lambda d') = `forcing`, as
 /// series in time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SlowEquation<'a> {
     pub twice_decay: f64,
     pub stiffness: f64,
     pub hertz: &'a PowerLaw,
-    /// The push less the pull of the suspension at the face.
-    pub push: &'a Series,
+    /// The forcing less the pull of the suspension at the face.
+    pub forcing: &'a Series,
 }
 
-/// A motion on the slow manifold, and its derivatives by the start and the push.
+/// A motion on the slow manifold, and its derivatives by the start and the forcing.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlowManifold {
     /// Deflection in m.
@@ -45,7 +45,7 @@ pub(super) struct SlowManifold {
     /// d(deflection)/d(velocity at the start), as a multiple of the memory, in s; to first order in the
     /// ratio of the slow rate to the fast one.
     pub echo: f64,
-    /// d(deflection)/d(constant push per mass), in s^2.
+    /// d(deflection)/d(constant forcing per mass), in s^2.
     pub answer: Series,
 }
 
@@ -75,7 +75,7 @@ impl SlowEquation<'_> {
         }
         let depth = self.solve_series(d, span, decays)?;
         let tolerance = |value: f64, scale: f64| ALLOWED * (value.abs() + scale);
-        let speed = tolerance(v, (self.push[0] / damping).abs());
+        let speed = tolerance(v, (self.forcing[0] / damping).abs());
         let near = (depth[0] - d).abs() <= tolerance(d, 0.0) && (depth[1] - v).abs() <= speed;
         near.then(|| self.with_derivatives(depth, span, decays))
     }
@@ -109,7 +109,7 @@ impl SlowEquation<'_> {
         depth[0] = d;
         let mut last = f64::INFINITY;
         for _ in 0..NEWTON_STEPS {
-            budget::charge(budget::CREEP);
+            budget::charge(budget::SLOW_MANIFOLD_STEP);
             let slopes = self.slopes_along(&depth);
             let matrix = jacobian(&slopes, span, decays);
             let residual = self.residual(&depth, &slopes, span, decays);
@@ -144,7 +144,7 @@ impl SlowEquation<'_> {
         let row = |k: usize| {
             let (first, second) = ((k + 1) as f64, (k + 2) as f64);
             let inertia = second * first * at(k + 2) + self.twice_decay * first * at(k + 1);
-            inertia + self.stiffness * depth[k] + slopes.force[k] - self.push[k]
+            inertia + self.stiffness * depth[k] + slopes.force[k] - self.forcing[k]
         };
         SVector::from_fn(|index, _| match (decays, index) {
             (true, k) => row(k) * span.powi(k as i32),

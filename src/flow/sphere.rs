@@ -12,9 +12,9 @@ use super::taylor::{DEGREE, RECIPROCALS};
 use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw};
 
-/// True if the law is Hertz's own, n = 3/2, under a constant push beside the drive.
+/// True if the law is Hertz's own, n = 3/2, under a constant forcing beside the drive.
 pub(super) fn is_sphere(hertz: &PowerLaw, from: &Departure) -> bool {
-    hertz.exponent == 1.5 && from.push.is_linear() && from.push.rate() == 0.0
+    hertz.exponent == 1.5 && from.forcing.is_linear() && from.forcing.rate() == 0.0
 }
 
 impl TaylorStep {
@@ -27,7 +27,7 @@ impl TaylorStep {
     ) -> Box<RegularizedTime> {
         let (kappa, b, w) = (self.hertz.factor(), flow.modes.stiffness, flow.frequency);
         let grip = kappa * self.hertz.dissipation;
-        let constant = from.push.value() - b * self.hertz.origin;
+        let constant = from.forcing.value() - b * self.hertz.origin;
         let mut regularized = Box::<RegularizedTime>::default();
         regularized.index = 2.0;
         let start = deflection.sqrt();
@@ -43,7 +43,7 @@ impl TaylorStep {
             let (rate, after) = (RECIPROCALS[k + 1], RECIPROCALS[k + 2]);
             let v = 2.0 * (k + 1) as f64 * next;
             (regularized.root[k], regularized.velocity[k]) = (s, v);
-            (self.depth[k], self.push[k]) = (deep, cos);
+            (self.depth[k], self.forcing[k]) = (deep, cos);
             if k == DEGREE {
                 break;
             }
@@ -63,7 +63,7 @@ impl TaylorStep {
             (s, next) = (next, 0.5 * after * driven);
             (cos, sin) = (-w * rate * by_sin, w * rate * by_cos);
         }
-        self.push[0] += from.push.value();
+        self.forcing[0] += from.forcing.value();
         self.is_pressed = true;
         regularized
     }

@@ -12,7 +12,7 @@ use super::convergence::{TRUNCATION, dense_convergence_reach, first_span};
 use super::paired_products::Products;
 use super::power_law::PowerLaw;
 use super::series::{Series, ZERO};
-use super::taylor::{DEGREE, RECIPROCALS, TaylorPolynomials, push_series};
+use super::taylor::{DEGREE, RECIPROCALS, TaylorPolynomials, forcing_series};
 use super::taylor_step::TaylorStep;
 use super::{Departure, LinearLaw};
 
@@ -30,12 +30,12 @@ impl TaylorStep {
         segment
     }
 
-    /// The step of a mass that is held while the push changes.
+    /// The step of a mass that is held while the forcing changes.
     pub fn of_held_mass(flow: &LinearLaw, from: &Departure) -> Self {
         let mut segment = Self::without_motion(flow, &PowerLaw::default());
         segment.depth[0] = from.position;
-        segment.push = push_series(flow, from);
-        segment.end_at(flow.reach.min(first_span(&segment.push)));
+        segment.forcing = forcing_series(flow, from);
+        segment.end_at(flow.reach.min(first_span(&segment.forcing)));
         segment
     }
 
@@ -46,14 +46,14 @@ impl TaylorStep {
         from: &Departure,
         start: (f64, f64),
     ) -> Self {
-        let taylor = TaylorPolynomials::expand(flow, start, push_series(flow, from));
+        let taylor = TaylorPolynomials::expand(flow, start, forcing_series(flow, from));
         let taylor = match from.acceleration {
             Some(acceleration) => taylor.with_acceleration(flow, acceleration),
             None => taylor,
         };
         let mut segment = Self::without_motion(flow, hertz);
         segment.depth = taylor.position;
-        segment.push = taylor.push;
+        segment.forcing = taylor.forcing;
         segment
     }
 
@@ -61,7 +61,7 @@ impl TaylorStep {
     /// motion begins with: a crossing early in a step would drown in the rounding of its end.
     pub(super) fn reach_in_time(&self, flow: &LinearLaw, from: &Departure) -> f64 {
         let reach = flow.reach;
-        if from.push.is_linear() {
+        if from.forcing.is_linear() {
             return reach;
         }
         let (depth, velocity) = (&self.depth, &self.velocity_series());
@@ -87,7 +87,7 @@ impl TaylorStep {
         (deflection, raised): (f64, f64),
     ) -> Option<Self> {
         let mut segment = Self::without_motion(flow, hertz);
-        segment.push = push_series(flow, from);
+        segment.forcing = forcing_series(flow, from);
         segment.is_pressed = true;
         let start = (deflection, from.velocity, raised);
         let velocity = segment.expand_power_law(flow, start);
@@ -107,7 +107,7 @@ impl TaylorStep {
         deflection: f64,
     ) -> Self {
         let mut segment = Self::without_motion(flow, hertz);
-        segment.push = push_series(flow, from);
+        segment.forcing = forcing_series(flow, from);
         segment.is_pressed = true;
         let velocity = segment.expand_square(flow, (deflection, from.velocity));
         segment.end_before(flow.reach, from, &velocity);
@@ -118,7 +118,7 @@ impl TaylorStep {
     fn end_before(&mut self, limit: f64, from: &Departure, velocity: &Series) {
         // What is below rounding of the velocity is so of the deflection.
         let mut reach = dense_convergence_reach(velocity).min(limit);
-        if !from.push.is_linear() {
+        if !from.forcing.is_linear() {
             reach = reach.min(first_span(&self.depth)).min(first_span(velocity));
         }
         self.end_at(reach);
@@ -132,7 +132,7 @@ impl TaylorStep {
         let (mut d, mut next) = (deflection, velocity);
         // Deflection and velocity against deflection and its square.
         let mut products = Products::ZERO;
-        let mut load = self.push[0] - pull * self.hertz.origin;
+        let mut load = self.forcing[0] - pull * self.hertz.origin;
         for k in 0..=DEGREE {
             (self.depth[k], v[k]) = (d, next);
             if k == DEGREE {
@@ -143,7 +143,7 @@ impl TaylorStep {
             let press = kappa * square + grip * (gripped + velocity * square);
             let rate = RECIPROCALS[k + 1];
             let driven = load - pull * d - press;
-            load = self.push[k + 1];
+            load = self.forcing[k + 1];
             (d, next) = (rate * next, rate * (driven - flow.damping() * next));
         }
         v
@@ -162,7 +162,7 @@ impl TaylorStep {
         let (mut d, mut newest, mut w) = (deflection, velocity, raised);
         // Velocity and the next of the deflection against the n-th power.
         let mut products = Products::ZERO;
-        let mut load = self.push[0] - pull * self.hertz.origin;
+        let mut load = self.forcing[0] - pull * self.hertz.origin;
         for k in 0..=DEGREE {
             (self.depth[k], v[k]) = (d, newest);
             if k == DEGREE {
@@ -172,7 +172,7 @@ impl TaylorStep {
             let next = rate * newest;
             let [[by_velocity, by_depth]] = products.next_terms(k, [[newest, next]], [[w; 2]]);
             let driven = load - pull * d - grip * by_velocity - flow.damping() * newest;
-            load = self.push[k + 1];
+            load = self.forcing[k + 1];
             (d, newest) = (next, rate * (driven - kappa * w));
             w = inverse * (rate * above * by_velocity - by_depth);
         }
@@ -185,7 +185,7 @@ impl TaylorStep {
 fn omitted_term_bound(flow: &LinearLaw, from: &Departure) -> f64 {
     let rate = flow.modes.fastest_rate();
     let answer = |k: usize| (DEGREE - k) as f64 * rate.powi((DEGREE - 1 - k) as i32);
-    let derivatives = from.push.derivatives().iter().enumerate().skip(2);
+    let derivatives = from.forcing.derivatives().iter().enumerate().skip(2);
     let sum: f64 = derivatives.map(|(k, f)| f.abs() * answer(k)).sum();
     (2..=DEGREE + 1).fold(sum, |sum, n| sum / n as f64)
 }

@@ -12,7 +12,7 @@ pub(crate) struct TaylorPolynomials {
     /// Position in m/s^n.
     pub position: [f64; DEGREE + 1],
     /// Push p(t) + A cos(angle + w t) in m/s^2/s^n.
-    pub push: [f64; DEGREE + 1],
+    pub forcing: [f64; DEGREE + 1],
 }
 
 /// 1/n.
@@ -27,12 +27,12 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
 };
 
 impl TaylorPolynomials {
-    /// Expands the motion from (x, v) under a push.
-    pub fn expand(flow: &LinearLaw, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
+    /// Expands the motion from (x, v) under a forcing.
+    pub fn expand(flow: &LinearLaw, (x, v): (f64, f64), forcing: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
         position[1] = v;
-        let mut taylor = Self { position, push };
+        let mut taylor = Self { position, forcing };
         taylor.continue_recurrence(flow, 0);
         taylor
     }
@@ -42,13 +42,13 @@ impl TaylorPolynomials {
         let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         let position = &mut self.position;
         for n in first..DEGREE - 1 {
-            let sum = self.push[n] - b * position[n];
+            let sum = self.forcing[n] - b * position[n];
             let damped = twice_decay * position[n + 1];
             position[n + 2] = (sum * RECIPROCALS[n + 1] - damped) * RECIPROCALS[n + 2];
         }
     }
 
-    /// The polynomials of the same push, with the mass held at `position`.
+    /// The polynomials of the same forcing, with the mass held at `position`.
     pub fn held_at(mut self, position: f64) -> Self {
         self.position = [0.0; DEGREE + 1];
         self.position[0] = position;
@@ -62,17 +62,17 @@ impl TaylorPolynomials {
         self
     }
 
-    /// The push per mass and the velocity at eight times, in s: Horner's rule on all of them side by side.
-    pub fn push_and_velocity(&self, times: [f64; 8]) -> [(f64, f64); 8] {
-        let (mut push, mut velocity) = ([0.0; 8], [0.0; 8]);
+    /// The forcing per mass and the velocity at eight times, in s: Horner's rule on all of them side by side.
+    pub fn forcing_and_velocity(&self, times: [f64; 8]) -> [(f64, f64); 8] {
+        let (mut forcing, mut velocity) = ([0.0; 8], [0.0; 8]);
         for n in (0..DEGREE).rev() {
             let rate = (n + 1) as f64 * self.position[n + 1];
             for (lane, s) in times.iter().enumerate() {
-                push[lane] = push[lane] * s + self.push[n];
+                forcing[lane] = forcing[lane] * s + self.forcing[n];
                 velocity[lane] = velocity[lane] * s + rate;
             }
         }
-        std::array::from_fn(|lane| (push[lane], velocity[lane]))
+        std::array::from_fn(|lane| (forcing[lane], velocity[lane]))
     }
 
     /// Position and velocity `s` seconds on.
@@ -81,37 +81,37 @@ impl TaylorPolynomials {
     }
 }
 
-/// Coefficients of the push p(t) + A cos(angle + w t) at a departure.
-pub(super) fn push_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE + 1] {
-    let (value, rate) = (from.push.value(), from.push.rate());
-    let mut push = linear_push_series(flow, from.drive, (value, rate));
-    if !from.push.is_linear() {
-        let higher = from.push.taylor_coefficients();
-        for (sum, coefficient) in push.iter_mut().zip(higher).skip(2) {
+/// Coefficients of the forcing p(t) + A cos(angle + w t) at a departure.
+pub(super) fn forcing_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE + 1] {
+    let (value, rate) = (from.forcing.value(), from.forcing.rate());
+    let mut forcing = linear_forcing_series(flow, from.drive, (value, rate));
+    if !from.forcing.is_linear() {
+        let higher = from.forcing.taylor_coefficients();
+        for (sum, coefficient) in forcing.iter_mut().zip(higher).skip(2) {
             *sum += coefficient;
         }
     }
-    push
+    forcing
 }
 
-/// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
-pub(super) fn linear_push_series(
+/// Coefficients of the forcing `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
+pub(super) fn linear_forcing_series(
     flow: &LinearLaw,
     DriveAngle { cos, sin }: DriveAngle,
     (constant, ramp): (f64, f64),
 ) -> [f64; DEGREE + 1] {
-    let mut push = [0.0; DEGREE + 1];
+    let mut forcing = [0.0; DEGREE + 1];
     let (mut even, mut odd) = (flow.amplitude * cos, -flow.amplitude * sin * flow.frequency);
     let square = -flow.frequency * flow.frequency;
     for n in (0..DEGREE).step_by(2) {
-        push[n] = even;
-        push[n + 1] = odd;
+        forcing[n] = even;
+        forcing[n + 1] = odd;
         even *= square * RECIPROCALS[n + 1] * RECIPROCALS[n + 2];
         odd *= square * RECIPROCALS[n + 2] * RECIPROCALS[n + 3];
     }
-    push[0] += constant;
-    push[1] += ramp;
-    push
+    forcing[0] += constant;
+    forcing[1] += ramp;
+    forcing
 }
 
 /// Value of a polynomial: Horner on four parts of it, side by side.

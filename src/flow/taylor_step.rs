@@ -1,13 +1,13 @@
 //! One Taylor step: the motion over a short time as power series.
 //!
-//! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. Away from
-//! the face, and with n = 2, it is followed in time itself ([`super::steps_in_time`]), but for n = 3/2 under a constant push
+//! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = forcing. Away from
+//! the face, and with n = 2, it is followed in time itself ([`super::steps_in_time`]), but for n = 3/2 under a constant forcing
 //! ([`super::sphere`]). At the face d^n has a branch point unless n is whole. If n is a
 //! multiple of 1/m it goes away where the m-th root s of d is the unknown and a stretched time sigma,
 //! dt = s^(m-1) dsigma, the variable (as Levi-Civita did for collisions, 1920):
 //!
 //! ```text
-//! ds/dsigma = v/m    dv/dsigma = s^(m-1) (push - 2 a v - b (x0 + s^m) - kappa s^(m n) (1 + lambda v))
+//! ds/dsigma = v/m    dv/dsigma = s^(m-1) (forcing - 2 a v - b (x0 + s^m) - kappa s^(m n) (1 + lambda v))
 //! ```
 //!
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
@@ -33,7 +33,7 @@ pub(crate) struct TaylorStep {
     /// What rounding took from the deflection at the start, in m: a linear law's alone carries it.
     pub(super) low: f64,
     /// Push per mass in m/s^2.
-    pub(super) push: Series,
+    pub(super) forcing: Series,
     /// What more there is where sigma is not time itself.
     pub(super) regularized: Option<Box<RegularizedTime>>,
     /// The power law acts.
@@ -53,7 +53,7 @@ pub(crate) struct TaylorStep {
     pub(super) stiffness: f64,
     /// What a slow motion remembers of its start.
     pub(super) slow_manifold: Option<Box<SlowManifold>>,
-    /// Positions, velocities and pushes are counted downwards: the face stands below.
+    /// Positions, velocities and forcings are counted downwards: the face stands below.
     pub(super) is_mirrored: bool,
 }
 
@@ -257,8 +257,8 @@ impl TaylorStep {
     }
 
     /// Push per mass in m/s^2 at sigma.
-    pub fn push_at(&self, sigma: f64) -> f64 {
-        self.side() * value(&self.push, sigma)
+    pub fn forcing_at(&self, sigma: f64) -> f64 {
+        self.side() * value(&self.forcing, sigma)
     }
 
     /// Time since departure at sigma, in s.
@@ -282,13 +282,14 @@ impl TaylorStep {
         tangent + position.abs() * curved_part(series, span) < 0.0
     }
 
-    /// The guard `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance from
+    /// The guard `position` x + `velocity` v + `forcing` q - `level` as a series in sigma; where it is the distance from
     /// the face itself, that of its root, which has the same sign.
-    pub fn guard_series(&self, position: f64, velocity: f64, push: f64, level: f64) -> Series {
-        let [position, velocity, push] = [position, velocity, push].map(|it| self.side() * it);
+    pub fn guard_series(&self, position: f64, velocity: f64, forcing: f64, level: f64) -> Series {
+        let [position, velocity, forcing] =
+            [position, velocity, forcing].map(|it| self.side() * it);
         // Seen from the face, a surface at the face is at zero exactly.
         let level = level - position * self.hertz.origin;
-        let at_face = level == 0.0 && velocity == 0.0 && push == 0.0;
+        let at_face = level == 0.0 && velocity == 0.0 && forcing == 0.0;
         let mut sum = match &self.regularized {
             Some(regularized) if at_face => regularized.root,
             _ => self.depth,
@@ -300,8 +301,8 @@ impl TaylorStep {
             let rates = self.velocity_series();
             sum = std::array::from_fn(|k| sum[k] + velocity * rates[k]);
         }
-        if push != 0.0 {
-            sum = std::array::from_fn(|k| sum[k] + push * self.push[k]);
+        if forcing != 0.0 {
+            sum = std::array::from_fn(|k| sum[k] + forcing * self.forcing[k]);
         }
         sum[0] -= level;
         sum[0] += position * self.low;

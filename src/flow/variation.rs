@@ -1,5 +1,5 @@
 //! Variational equations of an arc: how its states, and the energy supplied along it, change with its start and with
-//! the push; exact.
+//! the forcing; exact.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -24,12 +24,12 @@ pub(crate) struct Transition {
     pub by_frequency: Option<Vector2<f64>>,
 }
 
-/// A small change of a motion: of position and velocity at departure, and of the constant push per mass from there on.
+/// A small change of a motion: of position and velocity at departure, and of the constant forcing per mass from there on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Variation {
     pub position: f64,
     pub velocity: f64,
-    pub push: f64,
+    pub forcing: f64,
 }
 
 impl ArcSolution {
@@ -47,10 +47,10 @@ impl ArcSolution {
             Form::Particular { .. } | Form::Responses => {
                 let modes = &self.flow.modes;
                 let mut state = modes.transition(elapsed) * Vector2::new(by.position, by.velocity);
-                if by.push != 0.0 {
+                if by.forcing != 0.0 {
                     let answers =
                         ZeroStateResponses::after_time(modes, self.flow.frequency, elapsed);
-                    state += by.push * answers.constant;
+                    state += by.forcing * answers.constant;
                 }
                 (state.x, state.y)
             }
@@ -82,22 +82,22 @@ impl ArcSolution {
         }
     }
 
-    /// The force -A t sin(angle) per mass and d(time)/d(sigma) along a step under its drive and a constant push: by sigma,
-    /// that push changes by -A sin(angle) w d(time)/d(sigma). None in slow motion, whose changes are those by a constant
-    /// push.
+    /// The force -A t sin(angle) per mass and d(time)/d(sigma) along a step under its drive and a constant forcing: by sigma,
+    /// that forcing changes by -A sin(angle) w d(time)/d(sigma). None in slow motion, whose changes are those by a constant
+    /// forcing.
     fn detuning_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
-        let push = &self.departure.push;
-        if step.slow_manifold.is_some() || !push.is_linear() || push.rate() != 0.0 {
+        let forcing = &self.departure.forcing;
+        if step.slow_manifold.is_some() || !forcing.is_linear() || forcing.rate() != 0.0 {
             return None;
         }
         let mut time = step.time_in_sigma();
         time[0] += since;
-        let force = product(&time, &derivative(&step.push));
+        let force = product(&time, &derivative(&step.forcing));
         Some(force.map(|coefficient| coefficient / self.flow.frequency))
     }
 
-    /// The change of the work of the push per mass up to `elapsed`; `law` is the part of the constant
-    /// push that is the phase's own force.
+    /// The change of the work of the forcing per mass up to `elapsed`; `law` is the part of the constant
+    /// forcing that is the phase's own force.
     pub(crate) fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         match &self.form {
             Form::Held | Form::Chatter(_) => 0.0,
@@ -114,7 +114,7 @@ impl ArcSolution {
     fn supply_variation_of_linear(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         let (from, w) = (self.departure, self.flow.frequency);
         let norm = |x: f64, v: f64, c: f64| x.abs() + v.abs() / w + c.abs() / (w * w);
-        let size = norm(by.position, by.velocity, by.push);
+        let size = norm(by.position, by.velocity, by.forcing);
         if size == 0.0 {
             return 0.0;
         }
@@ -124,9 +124,9 @@ impl ArcSolution {
             let mut moved = from;
             moved.position += width * by.position;
             moved.velocity += width * by.velocity;
-            moved.push = from
-                .push
-                .with_derivative(0, from.push.value() + width * by.push);
+            moved.forcing = from
+                .forcing
+                .with_derivative(0, from.forcing.value() + width * by.forcing);
             moved.acceleration = None;
             let course = Self::new(&self.flow, moved);
             course
@@ -140,7 +140,7 @@ impl ArcSolution {
 impl TaylorStep {
     /// How the state changes with that at the start and under a force per mass and d(time)/d(sigma).
     fn transition(&self, elapsed: f64, force: Option<&Series>) -> Transition {
-        budget::charge(budget::TANGENT);
+        budget::charge(budget::STATE_VARIATIONS);
         let sigma = self.sigma_after(elapsed);
         let law = Linearized::along_step(self);
         let columns = self.variations(&law, force);
@@ -156,16 +156,18 @@ impl TaylorStep {
     /// The changes of position and velocity as series in sigma.
     fn state_variation(&self, by: Variation) -> [Series; 2] {
         let law = Linearized::along_step(self);
-        let [first, second, pushed] = self.variations(&law, Some(&law.rate));
+        let [first, second, forced] = self.variations(&law, Some(&law.rate));
         [0, 1].map(|of| {
             std::array::from_fn(|k| {
-                by.position * first[of][k] + by.velocity * second[of][k] + by.push * pushed[of][k]
+                by.position * first[of][k]
+                    + by.velocity * second[of][k]
+                    + by.forcing * forced[of][k]
             })
         })
     }
 
     /// Position and velocity, as series in sigma, from (1, 0), from (0, 1), and from (0, 0) under a force, if there is one,
-    /// per mass and d(time)/d(sigma): in slow motion a constant push.
+    /// per mass and d(time)/d(sigma): in slow motion a constant forcing.
     pub(super) fn variations(&self, law: &Linearized, force: Option<&Series>) -> [[Series; 2]; 3] {
         match &self.slow_manifold {
             Some(slow_manifold) => {
@@ -178,15 +180,16 @@ impl TaylorStep {
         }
     }
 
-    /// The change of the work of the push per mass up to `elapsed`, as [`ArcSolution::supply_variation`].
+    /// The change of the work of the forcing per mass up to `elapsed`, as [`ArcSolution::supply_variation`].
     fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         let [_, changed] = self.state_variation(by);
         let rate = self.time_rate_series();
-        let mut push = self.push;
-        push[0] -= self.side() * law;
+        let mut forcing = self.forcing;
+        forcing[0] -= self.side() * law;
         let to = self.sigma_after(elapsed);
         let travel = integral_of_product(&rate, &self.velocity_series(), to);
-        let work = integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel;
+        let work =
+            integral_of_product(&product(&rate, &forcing), &changed, to) + by.forcing * travel;
         self.side() * work
     }
 }

@@ -12,7 +12,7 @@ use super::taylor_step::TaylorStep;
 /// Integrals of power along an arc, per unit of mass, in m^2/s^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct WorkIntegrals {
-    /// Work of the push, without the law's own constant force.
+    /// Work of the forcing, without the law's own constant force.
     pub supplied: f64,
     /// Work lost in the phase's damper, the integral of 2 a v^2.
     pub lost: f64,
@@ -21,7 +21,7 @@ pub(crate) struct WorkIntegrals {
 }
 
 impl ArcSolution {
-    /// Work from departure to a node; `law` is the part of the constant push that is the phase's own force.
+    /// Work from departure to a node; `law` is the part of the constant forcing that is the phase's own force.
     pub(crate) fn work_integrals(&self, to: &ScanNode, law: f64) -> WorkIntegrals {
         let elapsed = to.elapsed;
         match &self.form {
@@ -46,9 +46,9 @@ impl ArcSolution {
         while start < elapsed {
             let last = width >= elapsed - start;
             let nodes = gauss_nodes(if last { elapsed - start } else { width });
-            let states = self.push_and_velocity(start, &nodes);
-            for ((push, velocity), (_, weight)) in states.into_iter().zip(nodes) {
-                supplied += weight * (push - law) * velocity;
+            let states = self.forcing_and_velocity(start, &nodes);
+            for ((forcing, velocity), (_, weight)) in states.into_iter().zip(nodes) {
+                supplied += weight * (forcing - law) * velocity;
                 square += weight * velocity * velocity;
             }
             start = if last { elapsed } else { start + width };
@@ -62,7 +62,7 @@ impl ArcSolution {
     }
 
     /// Push and velocity at the Gauss nodes of a panel that begins at `start`.
-    fn push_and_velocity(&self, start: f64, nodes: &[(f64, f64); 8]) -> [(f64, f64); 8] {
+    fn forcing_and_velocity(&self, start: f64, nodes: &[(f64, f64); 8]) -> [(f64, f64); 8] {
         let node = if start == 0.0 {
             self.start_node()
         } else {
@@ -70,13 +70,15 @@ impl ArcSolution {
         };
         let widest = nodes[6].0.max(nodes[7].0);
         if widest <= self.flow.reach {
-            return self.expand(&node).push_and_velocity(nodes.map(|(s, _)| s));
+            return self
+                .expand(&node)
+                .forcing_and_velocity(nodes.map(|(s, _)| s));
         }
         nodes.map(|(s, _)| {
             let node = self.node_at(start + s);
-            let (constant, ramp) = self.linear_push_at(0.0);
-            let push = constant + ramp * node.elapsed + self.flow.amplitude * node.drive.cos;
-            (push, node.velocity)
+            let (constant, ramp) = self.linear_forcing_at(0.0);
+            let forcing = constant + ramp * node.elapsed + self.flow.amplitude * node.drive.cos;
+            (forcing, node.velocity)
         })
     }
 
@@ -99,7 +101,7 @@ impl ArcSolution {
         let (cosine, sine) = (w * particular.sine, -w * particular.cosine);
         // u = slope + cosine cos + sine sin
         let drive_u = slope * waves.cos + cosine * waves.cos_cos + sine * waves.cos_sin;
-        let steady = self.work_of_push(&from, to, law);
+        let steady = self.work_of_external_force(&from, to, law);
         let energy = |(y, rate): (f64, f64)| 0.5 * (rate * rate + b * y * y);
         let mixed = slope * (end.0 - start.0) + cosine * cross.re + sine * cross.im;
         let square_u = slope * (slope * elapsed + 2.0 * (cosine * waves.cos + sine * waves.sin))
@@ -137,8 +139,8 @@ impl ArcSolution {
 
     /// Work of the external force c + r t per mass: [(c + r t) x] - r times the integral of x, which follows from the
     /// integral of the equation of motion.
-    fn work_of_push(&self, from: &ScanNode, to: &ScanNode, law: f64) -> f64 {
-        let (constant, ramp) = self.linear_push_at(0.0);
+    fn work_of_external_force(&self, from: &ScanNode, to: &ScanNode, law: f64) -> f64 {
+        let (constant, ramp) = self.linear_forcing_at(0.0);
         let elapsed = to.elapsed;
         let external = constant - law;
         let moved = external * (to.position - from.position);
@@ -146,16 +148,16 @@ impl ArcSolution {
             return moved;
         }
         let waves = (to.drive.sin - from.drive.sin) / self.flow.frequency;
-        let push = elapsed * (constant + 0.5 * ramp * elapsed) + self.flow.amplitude * waves;
+        let forcing = elapsed * (constant + 0.5 * ramp * elapsed) + self.flow.amplitude * waves;
         let change = to.velocity - from.velocity
             + 2.0 * self.flow.modes.decay * (to.position - from.position);
-        let area = (push - change) / self.flow.modes.stiffness;
+        let area = (forcing - change) / self.flow.modes.stiffness;
         moved + ramp * (elapsed * to.position - area)
     }
 }
 
 impl TaylorStep {
-    /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
+    /// Work up to `elapsed`; `law` is the part of the constant forcing that is the phase's own force.
     pub fn work(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let law = self.side() * law;
         if self.regularized.is_none() && !self.is_pressed {
@@ -168,7 +170,7 @@ impl TaylorStep {
         for (sigma, weight) in gauss_nodes(self.sigma_after(elapsed)) {
             let velocity = value(&velocities, sigma);
             let travel = weight * value(&rate, sigma) * velocity;
-            done.supplied += travel * (value(&self.push, sigma) - law);
+            done.supplied += travel * (value(&self.forcing, sigma) - law);
             done.lost += travel * self.damping * velocity;
             if kappa > 0.0 {
                 done.pressed += travel * kappa * value(&power, sigma) * velocity;
@@ -179,7 +181,7 @@ impl TaylorStep {
 
     /// Work of a linear law, whose sigma is time: the integrals of the polynomials themselves, whatever their degree.
     fn work_in_time(&self, elapsed: f64, law: f64) -> WorkIntegrals {
-        let mut force = self.push;
+        let mut force = self.forcing;
         force[0] -= law;
         let velocity = self.velocity_series();
         let supplied = integral_of_product(&force, &velocity, elapsed);

@@ -29,7 +29,7 @@ impl ZeroStateResponses {
     pub fn after_time(modes: &Modes, w: f64, t: f64) -> Self {
         let rate = modes.fastest_rate().max(w);
         let doublings = (rate * t / REACH).log2().ceil().clamp(0.0, 1000.0) as i32;
-        budget::charge(budget::RESPONSES + budget::DOUBLING * doublings as u64);
+        budget::charge(budget::ZERO_STATE_RESPONSES + budget::DOUBLING * doublings as u64);
         let mut span = t * 0.5f64.powi(doublings);
         let mut responses = Self::sum_series(modes, w, span);
         for _ in 0..doublings {

@@ -213,8 +213,8 @@ impl Motion {
             Mode::Moving(phase) => Cow::Borrowed(&self.phases[phase].guards),
             Mode::Held(hold) => {
                 let since = &self.course.departure;
-                let push = since.push.value() + self.phases.amplitude * since.drive.cos;
-                Cow::Owned(self.phases.release_guards(hold, since.position, push))
+                let forcing = since.forcing.value() + self.phases.amplitude * since.drive.cos;
+                Cow::Owned(self.phases.release_guards(hold, since.position, forcing))
             }
             Mode::Chattering(_) => Cow::Borrowed(&[]),
         }
@@ -228,7 +228,9 @@ impl Motion {
         };
         let position = self.course.departure.position;
         let speed = self.course.chatter().map_or(0.0, |chatter| chatter.speed);
-        let mode = self.phases.mode_from_rest(hold, position, self.push(drive));
+        let mode = self
+            .phases
+            .mode_from_rest(hold, position, self.forcing_per_mass(drive));
         let rest = Reset::new(position, 0.0, mode, CrossingKind::Rest);
         self.begin_after_reset(rest, Start::new(position, speed), drive, observer);
     }
@@ -279,7 +281,7 @@ impl Motion {
         if let Some(surface) = self.endless_surface(found.guard) {
             self.bounce_train.count_crossing(surface, found.velocity);
         }
-        let landing = self.reset_after(&found, self.push(drive), moved);
+        let landing = self.reset_after(&found, self.forcing_per_mass(drive), moved);
         self.update_pierced(landing.kind);
         self.begin_after_reset(landing, before, drive, observer);
     }
@@ -292,8 +294,8 @@ impl Motion {
         drive: DriveAngle,
         observer: &mut dyn Observer,
     ) {
-        let (push, after) = (self.push(drive), landing.state);
-        let acceleration_before = self.acceleration_in(self.mode, before, push);
+        let (forcing, after) = (self.forcing_per_mass(drive), landing.state);
+        let acceleration_before = self.acceleration_in(self.mode, before, forcing);
         match landing.chatter {
             Some(chatter) => {
                 let departure = self.arc_departure(after, drive, landing.mode, None);
@@ -308,7 +310,7 @@ impl Motion {
             velocity: before.velocity,
             velocity_after: after.velocity,
             acceleration_before,
-            acceleration_after: self.acceleration_in(landing.mode, after, push),
+            acceleration_after: self.acceleration_in(landing.mode, after, forcing),
         });
     }
 }

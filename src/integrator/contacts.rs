@@ -47,16 +47,16 @@ impl Contacts {
 }
 
 impl Simulation {
-    /// What happened over the last advance, or since [`Simulation::mark`] was called or something was set. It is gone
+    /// What happened over the last advance, or since [`Simulation::set_checkpoint`] was called or something was set. It is gone
     /// through again to tell, unless the mass was free all the way.
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be gone through again.
     pub fn contacts(&self) -> Result<Contacts, MotionError> {
-        if self.was_free() {
+        if self.was_free_since_checkpoint() {
             return Ok(Contacts::default());
         }
-        let (motion, from) = self.motion_passing_mark();
+        let (motion, from) = self.motion_through_checkpoint();
         let mut watch = ContactRecorder {
             scene: &self.scene,
             clock: *motion.clock(),
@@ -91,12 +91,13 @@ impl Observer for ContactRecorder<'_> {
             ..
         } = *self.scene;
         let law = arc.phase.map_or(0.0, |phase| phase.law.force);
-        let rest =
-            |time: f64| mass * arc.course.push(time) - law - stiffness * arc.at(time).position;
+        let rest = |time: f64| {
+            mass * arc.course.forcing_at(time) - law - stiffness * arc.at(time).position
+        };
         let fastest = arc.course.flow.modes.fastest_rate();
         let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, |_| fastest);
 
-        // F = push - k1 x - b1 x' - m x'', of which the last two have integrals.
+        // F = forcing - k1 x - b1 x' - m x'', of which the last two have integrals.
         self.contacts.impulse += integrate((from, elapsed), rate, rest);
         let (begin, end) = (arc.at(from), arc.node_after(elapsed));
         self.contacts.impulse -= damping * (end.position - begin.position);

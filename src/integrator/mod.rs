@@ -2,18 +2,18 @@
 
 mod advance;
 mod bounce_train;
+mod checkpoint;
 mod clock;
 mod contacts;
 mod effort;
 mod external_force;
-mod mark;
 mod motion;
 mod observer;
 mod outputs;
 mod phase_tracker;
-mod put_state;
 mod reset;
 mod restart;
+mod set_state;
 mod simulation;
 mod snapshot;
 mod start;

@@ -68,12 +68,12 @@ impl Motion {
             position: start.position,
             velocity: start.velocity,
             drive,
-            push: Polynomial::default(),
+            forcing: Polynomial::default(),
             acceleration: None,
         };
         let course = ArcSolution::held(&phases.held, departure);
-        let push = phases.push(drive, &force);
-        let mode = phases.mode_at(start.position, start.velocity, push, fed);
+        let forcing = phases.forcing_per_mass(drive, &force);
+        let mode = phases.mode_at(start.position, start.velocity, forcing, fed);
         let outlook = NextEvent::Never;
         let mut motion = Self {
             phases,
@@ -95,7 +95,7 @@ impl Motion {
 
     /// Goes by the phase that it is known to move in where that is the one of a contact that has just been released, and
     /// rounding of its state has put it back before the release.
-    pub fn go_by_phase(&mut self, index: usize) {
+    pub fn assume_phase(&mut self, index: usize) {
         let known = self.phases.phases[index].id;
         if let Mode::Moving(located) = self.mode
             && let Some((released, _)) = self.phases[located].released
@@ -269,7 +269,7 @@ impl Motion {
             position: state.position,
             velocity: state.velocity,
             drive,
-            push: self.force.on_arc().per_mass(law, self.phases.mass),
+            forcing: self.force.on_arc().per_mass(law, self.phases.mass),
             acceleration,
         }
     }
@@ -315,8 +315,8 @@ impl Motion {
     pub(super) fn acceleration_at_rest(&self, position: f64, drive: DriveAngle, mode: Mode) -> f64 {
         match (self.mode, mode) {
             (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => {
-                let push = self.push(drive);
-                self.phases.acceleration(phase, position, 0.0, push)
+                let forcing = self.forcing_per_mass(drive);
+                self.phases.acceleration(phase, position, 0.0, forcing)
             }
             // A held mass is let go in balance.
             _ => 0.0,
@@ -324,14 +324,14 @@ impl Motion {
     }
 
     /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
-    pub(super) fn push(&self, drive: DriveAngle) -> f64 {
-        self.phases.push(drive, self.force.on_arc())
+    pub(super) fn forcing_per_mass(&self, drive: DriveAngle) -> f64 {
+        self.phases.forcing_per_mass(drive, self.force.on_arc())
     }
 
     /// Acceleration in m/s^2 in a mode.
-    pub(super) fn acceleration_in(&self, mode: Mode, at: Start, push: f64) -> f64 {
+    pub(super) fn acceleration_in(&self, mode: Mode, at: Start, forcing: f64) -> f64 {
         let Start { position, velocity } = at;
-        let moving = |phase| self.phases.acceleration(phase, position, velocity, push);
+        let moving = |phase| self.phases.acceleration(phase, position, velocity, forcing);
         mode.phase().map_or(0.0, moving)
     }
 }

@@ -41,19 +41,19 @@ impl Simulation {
     /// Outputs at the present time.
     pub fn sample(&self) -> Sample {
         let Start { position, velocity } = self.motion.state();
-        let (push, push_rate, _) = self.push();
+        let (forcing, forcing_rate, _) = self.forcing();
         let (contact_force, acceleration, jerk) = match self.motion.phase() {
-            None => (push - self.scene.stiffness * position, 0.0, 0.0),
+            None => (forcing - self.scene.stiffness * position, 0.0, 0.0),
             Some(phase) => {
                 let contact = phase.contact_force(position, velocity);
                 let free = self.scene.damping * velocity + self.scene.stiffness * position;
-                let acceleration = (push - free - contact) / self.scene.mass;
+                let acceleration = (forcing - free - contact) / self.scene.mass;
                 let (stiffness, damping) = phase.slopes(position, velocity);
                 let resisting = damping * acceleration + stiffness * velocity;
                 (
                     contact,
                     acceleration,
-                    (push_rate - resisting) / self.scene.mass,
+                    (forcing_rate - resisting) / self.scene.mass,
                 )
             }
         };
@@ -68,7 +68,7 @@ impl Simulation {
     }
 
     /// Drive and external force now, in N, with their first and second derivative.
-    pub fn push(&self) -> (f64, f64, f64) {
+    pub fn forcing(&self) -> (f64, f64, f64) {
         let force = self.motion.force();
         let DriveAngle { cos, sin } = self.motion.clock().drive(self.motion.now());
         let excitation = self.scene.excitation;
@@ -118,7 +118,7 @@ impl Simulation {
     /// Rates of the outputs at the present time. While the mass bounces faster than can be told they are
     /// those of the rest that it comes to.
     pub fn rates(&self) -> Rates {
-        let (push, rate, curvature) = self.push();
+        let (forcing, rate, curvature) = self.forcing();
         let Some(phase) = self.motion.phase() else {
             return Rates {
                 contact_force: (rate, curvature),
@@ -152,7 +152,7 @@ impl Simulation {
             pull * v,
             (scene.mass * jerk + (k + store.stiffness_at(x)) * v) * v + pull * a,
         );
-        let supplied = (push * v, rate * v + push * a);
+        let supplied = (forcing * v, rate * v + forcing * a);
         Rates {
             snap,
             contact_force,

@@ -48,9 +48,9 @@ impl PhaseTracker {
             impacts: Vec::new(),
         };
         let Start { position, velocity } = start;
-        let push = walk.push();
-        let mode = scene.phases().mode_at(position, velocity, push, true);
-        walk.enter_mode(mode, push);
+        let forcing = walk.forcing_per_mass();
+        let mode = scene.phases().mode_at(position, velocity, forcing, true);
+        walk.enter_mode(mode, forcing);
         Ok(walk)
     }
 
@@ -74,7 +74,7 @@ impl PhaseTracker {
         self.mode.phase()
     }
 
-    /// The guards that end the present phase. While the mass is held they ask for the push alone.
+    /// The guards that end the present phase. While the mass is held they ask for the forcing alone.
     pub fn guards(&self) -> &[Guard] {
         self.phase().map_or(&self.releases, |phase| &phase.guards)
     }
@@ -97,7 +97,7 @@ impl PhaseTracker {
         let elapsed = time - self.time;
         self.time = time;
         self.check_progress(elapsed)?;
-        let push = self.push();
+        let forcing = self.forcing_per_mass();
         let (state, mode) = match self.mode {
             Mode::Moving(phase) => {
                 let found = FoundCrossing {
@@ -106,17 +106,17 @@ impl PhaseTracker {
                     position: before.position,
                     velocity: before.velocity,
                 };
-                self.reset(phase, &found, push)
+                self.reset(phase, &found, forcing)
             }
             Mode::Held(hold) | Mode::Chattering(hold) => (self.state, hold.after_release(guard)),
         };
         self.state = state;
-        self.enter_mode(mode, push);
+        self.enter_mode(mode, forcing);
         Ok(())
     }
 
     /// State and mode after a crossing out of a phase, by the rules of [`ResetContext`].
-    fn reset(&mut self, phase: PhaseId, found: &FoundCrossing, push: f64) -> (Start, Mode) {
+    fn reset(&mut self, phase: PhaseId, found: &FoundCrossing, forcing: f64) -> (Start, Mode) {
         if let Some(surface) = self.scene.phases().endless_surface(phase, found.guard) {
             self.bounce_train.count_crossing(surface, found.velocity);
         }
@@ -130,7 +130,7 @@ impl PhaseTracker {
             force: &force,
             period: self.scene.period(),
         };
-        let landing = ground.reset(phase, found, push, moved);
+        let landing = ground.reset(phase, found, forcing, moved);
         if landing.kind.is_impact() {
             let (time, velocity) = (self.time, found.velocity);
             self.impacts.push(Impact { time, velocity });
@@ -138,25 +138,25 @@ impl PhaseTracker {
         match landing.mode {
             Mode::Chattering(hold) => {
                 let position = landing.state.position;
-                let mode = self.scene.phases().mode_from_rest(hold, position, push);
+                let mode = self.scene.phases().mode_from_rest(hold, position, forcing);
                 (Start::new(position, 0.0), mode)
             }
             mode => (landing.state, mode),
         }
     }
 
-    fn enter_mode(&mut self, mode: Mode, push: f64) {
+    fn enter_mode(&mut self, mode: Mode, forcing: f64) {
         let releases = |hold| {
             self.scene
                 .phases()
-                .release_guards(hold, self.state.position, push)
+                .release_guards(hold, self.state.position, forcing)
         };
         self.releases = mode.sticking().map(releases).unwrap_or_default();
         self.mode = mode;
     }
 
     /// Push of the drive per mass in m/s^2 at the last crossing.
-    fn push(&self) -> f64 {
+    fn forcing_per_mass(&self) -> f64 {
         let drive = self.scene.excitation;
         let angle = drive.frequency * self.time + drive.reduced_phase();
         drive.amplitude / self.scene.mass * angle.cos()

@@ -70,9 +70,9 @@ impl Motion {
     }
 
     /// State and mode right after a crossing; `moved` as for [`ResetContext::reset`].
-    pub(super) fn reset_after(&self, found: &FoundCrossing, push: f64, moved: bool) -> Reset {
+    pub(super) fn reset_after(&self, found: &FoundCrossing, forcing: f64, moved: bool) -> Reset {
         match self.mode {
-            Mode::Moving(phase) => self.reset_context().reset(phase, found, push, moved),
+            Mode::Moving(phase) => self.reset_context().reset(phase, found, forcing, moved),
             Mode::Held(hold) | Mode::Chattering(hold) => {
                 let mode = hold.after_release(found.guard);
                 Reset::new(found.position, 0.0, mode, CrossingKind::Release)
@@ -123,7 +123,7 @@ impl ResetContext<'_> {
         &self,
         phase: PhaseId,
         found: &FoundCrossing,
-        push: f64,
+        forcing: f64,
         moved: bool,
     ) -> Reset {
         let onward = self.phases.crossing_velocity(phase, found);
@@ -132,7 +132,7 @@ impl ResetContext<'_> {
         match phase.exits[found.guard] {
             Exit::Reversal { forward, backward } => {
                 let hold = Sticking::between(forward, backward);
-                let mode = self.phases.mode_at_reversal(hold, position, push);
+                let mode = self.phases.mode_at_reversal(hold, position, forcing);
                 Reset::new(position, 0.0, mode, CrossingKind::Reversal)
             }
             Exit::Switch(to) => {
@@ -143,22 +143,24 @@ impl ResetContext<'_> {
                 let at = &self.phases[surface];
                 let velocity = if moved { onward } else { 0.0 };
                 match self.phases.beyond(at, self.fed) {
-                    Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
-                    Beyond::Phase(_) => self.pass_surface(at, velocity, push, true),
+                    Beyond::Wall { restitution } => {
+                        self.rebound(at, velocity, forcing, restitution)
+                    }
+                    Beyond::Phase(_) => self.pass_surface(at, velocity, forcing, true),
                 }
             }
             Exit::Backward(surface) => {
                 let at = &self.phases[surface];
-                self.pass_surface(at, onward, push, false)
+                self.pass_surface(at, onward, forcing, false)
             }
         }
     }
 
     /// The reset where a surface is passed.
-    fn pass_surface(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Reset {
+    fn pass_surface(&self, at: &Surface, velocity: f64, forcing: f64, forward: bool) -> Reset {
         let mode = self
             .phases
-            .mode_at_surface(at, velocity, push, self.fed, self.threshold);
+            .mode_at_surface(at, velocity, forcing, self.fed, self.threshold);
         let held = matches!(mode, Mode::Held(_));
         let kind = CrossingKind::Surface {
             forward,
@@ -170,7 +172,7 @@ impl ResetContext<'_> {
     }
 
     /// The reset by Newton's impact law v+ = -R v-.
-    fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Reset {
+    fn rebound(&self, at: &Surface, velocity: f64, forcing: f64, restitution: f64) -> Reset {
         let kind = CrossingKind::Rebound {
             impact: at.is_clearance,
             pierces: self.pierces_strip(at),
@@ -178,17 +180,17 @@ impl ResetContext<'_> {
         let (position, speed) = (at.position, restitution * (at.side * velocity));
         let velocity = -at.side * speed;
         let hold = at.sticking_at(Beyond::Wall { restitution });
-        let held = self.phases.mode_from_rest(hold, position, push);
+        let held = self.phases.mode_from_rest(hold, position, forcing);
         let rests = matches!(held, Mode::Held(_));
         let faint = || {
             let endless =
-                restitution > MAX_RESTITUTION && self.phases.is_faint(at, speed, push, self.fed);
+                restitution > MAX_RESTITUTION && self.phases.is_faint(at, speed, forcing, self.fed);
             speed < self.threshold.slowest || endless
         };
         if speed == 0.0 || (rests && faint()) {
             return Reset::new(position, 0.0, held, kind);
         }
-        let chatter = self.chatter(at, speed, push, restitution);
+        let chatter = self.chatter(at, speed, forcing, restitution);
         let mode = match chatter {
             Some(_) => Mode::Chattering(hold),
             None => Mode::Moving(self.phases.pressing_phase(at.before, position, velocity)),
@@ -200,10 +202,10 @@ impl ResetContext<'_> {
     }
 
     /// The bounces that follow a rebound, where they can be summed.
-    fn chatter(&self, at: &Surface, speed: f64, push: f64, restitution: f64) -> Option<Chatter> {
+    fn chatter(&self, at: &Surface, speed: f64, forcing: f64, restitution: f64) -> Option<Chatter> {
         let phases = self.phases;
         let (out, back) = (at.before, phases.at_velocity(at.before, at.side));
-        let rest = |phase| at.side * phases.acceleration(phase, at.position, 0.0, push);
+        let rest = |phase| at.side * phases.acceleration(phase, at.position, 0.0, forcing);
         let slopes = [out, back].map(|phase| phases[phase].slopes(at.position, 0.0));
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.amplitude * phases.frequency;
@@ -212,7 +214,7 @@ impl ResetContext<'_> {
         let pressing = PressingForces {
             accelerations: (rest(out), rest(back)),
             drive_rate: drive,
-            push: self.force.per_mass(0.0, phases.mass),
+            forcing: self.force.per_mass(0.0, phases.mass),
             damping: largest(slopes.map(|slope| slope.1)),
             stiffness: largest(slopes.map(|slope| slope.0)),
             period: self.period,

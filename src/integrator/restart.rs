@@ -62,8 +62,8 @@ impl Motion {
         match self.mode {
             // A step of the force lets the mass go with the acceleration that it brings.
             Mode::Held(hold) => {
-                let push = self.push(drive);
-                self.mode = self.phases.mode_from_rest(hold, state.position, push);
+                let forcing = self.forcing_per_mass(drive);
+                self.mode = self.phases.mode_from_rest(hold, state.position, forcing);
             }
             Mode::Chattering(hold) => {
                 let phase = self.phases.at_velocity(hold.outer_phase(), state.velocity);
@@ -71,9 +71,9 @@ impl Motion {
             }
             // At rest on a face the force decides which way it goes, if any.
             Mode::Moving(_) if state.velocity == 0.0 => {
-                let push = self.push(drive);
+                let forcing = self.forcing_per_mass(drive);
                 let latched = self.is_latched();
-                self.mode = self.phases.mode_at(state.position, 0.0, push, latched);
+                self.mode = self.phases.mode_at(state.position, 0.0, forcing, latched);
             }
             Mode::Moving(_) => {}
         }
@@ -87,10 +87,12 @@ impl Motion {
         let Mode::Chattering(hold) = self.mode else {
             return false;
         };
-        let push = self.phases.push(self.clock.drive(self.now), force);
+        let forcing = self
+            .phases
+            .forcing_per_mass(self.clock.drive(self.now), force);
         let left = self
             .phases
-            .mode_from_rest(hold, self.course.departure.position, push);
+            .mode_from_rest(hold, self.course.departure.position, forcing);
         matches!(left, Mode::Held(_))
     }
 
@@ -166,7 +168,7 @@ impl Simulation {
             self.tallies.counts.work += work;
         }
         self.scene = scene;
-        self.mark = Checkpoint::OnArc(self.motion.now());
+        self.checkpoint = Checkpoint::OnArc(self.motion.now());
         Ok(())
     }
 

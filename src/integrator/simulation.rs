@@ -27,7 +27,7 @@ pub struct Simulation {
     pub(super) tallies: Tallies,
     /// Absolute time at which the machine started.
     pub(super) begin: f64,
-    pub(super) mark: Checkpoint,
+    pub(super) checkpoint: Checkpoint,
     /// The last impact before the clock's time 0.
     pub(super) earlier: Option<Impact>,
 }
@@ -102,7 +102,7 @@ impl Simulation {
             now: time,
             tallies,
             begin: time,
-            mark: Checkpoint::OnArc(at),
+            checkpoint: Checkpoint::OnArc(at),
             earlier: None,
         })
     }
@@ -165,7 +165,7 @@ impl Simulation {
             if halt.is_some() && instant > before {
                 self.motion.now = instant;
             }
-            self.mark = Checkpoint::OnArc(before);
+            self.checkpoint = Checkpoint::OnArc(before);
             self.now = until;
             return Ok(ControlFlow::Continue(()));
         }
@@ -178,7 +178,7 @@ impl Simulation {
         let mut observers = (&mut self.tallies, observer);
         match self.motion.watch_before(end, stop, &mut observers) {
             Ok(flow) => {
-                self.mark = Checkpoint::Before(origin);
+                self.checkpoint = Checkpoint::Before(origin);
                 self.now = if flow.is_continue() {
                     if halt.is_some() && instant > self.motion.start {
                         self.motion.now = instant;
@@ -233,7 +233,7 @@ impl Simulation {
             if self.motion.set_force(force) {
                 self.tallies.counts.work += work;
             }
-            self.mark = Checkpoint::OnArc(self.motion.now());
+            self.checkpoint = Checkpoint::OnArc(self.motion.now());
         }
         Ok(())
     }
@@ -273,7 +273,7 @@ impl Simulation {
             self.restart_clock();
         }
         (self.motion, self.scene) = (motion, scene);
-        self.mark = Checkpoint::OnArc(self.motion.now());
+        self.checkpoint = Checkpoint::OnArc(self.motion.now());
         self.tallies.mass = self.scene.mass;
         let mechanical = self.motion.mechanical_energy(&self.scene);
         self.tallies.counts.work.supplied += mechanical - before;

@@ -31,7 +31,8 @@ pub struct Snapshot {
     begin: f64,
     counts: Counts,
     motion: MotionData,
-    mark: Checkpoint<MotionData>,
+    #[serde(rename = "mark")]
+    checkpoint: Checkpoint<MotionData>,
     earlier: Option<Impact>,
 }
 
@@ -102,7 +103,7 @@ impl MotionData {
         };
         if self.is_put {
             (motion.mode, motion.now) = (self.mode, self.start);
-            motion.put_in_state(given);
+            motion.begin_in_state(given);
             motion.now = self.now;
         } else {
             motion.begin_course(self.departure, self.mode, self.finer, self.chatter);
@@ -139,7 +140,7 @@ impl Simulation {
     /// All that is needed to go on from here.
     pub fn snapshot(&self) -> Snapshot {
         let moving = |motion: &Motion| Ok::<_, Infallible>(MotionData::from_motion(motion));
-        let Ok(mark) = self.mark.map(moving);
+        let Ok(checkpoint) = self.checkpoint.map(moving);
         Snapshot {
             scene: self.scene.clone(),
             epoch: self.epoch,
@@ -147,7 +148,7 @@ impl Simulation {
             begin: self.begin,
             counts: self.tallies.counts,
             motion: MotionData::from_motion(&self.motion),
-            mark,
+            checkpoint,
             earlier: self.earlier,
         }
     }
@@ -171,7 +172,7 @@ impl Simulation {
                 counts: snapshot.counts,
             },
             begin: snapshot.begin,
-            mark: snapshot.mark.map(|it| it.to_motion(&scene))?,
+            checkpoint: snapshot.checkpoint.map(|it| it.to_motion(&scene))?,
             earlier: snapshot.earlier,
             scene,
         })

@@ -89,12 +89,12 @@ impl Simulation {
         if !self.motion.is_at_crossing() {
             return false;
         }
-        if let Checkpoint::OnArc(now) = self.mark {
+        if let Checkpoint::OnArc(now) = self.checkpoint {
             let motion = Motion {
                 now,
                 ..self.motion.clone()
             };
-            self.mark = Checkpoint::Before(Box::new(CheckpointState {
+            self.checkpoint = Checkpoint::Before(Box::new(CheckpointState {
                 motion,
                 counts: self.tallies.counts,
                 now: self.time_of(now),

@@ -128,7 +128,7 @@ fn stop_layers(
             let pulls = Guard {
                 position: -stiffness,
                 velocity: -extra,
-                push: 0.0,
+                forcing: 0.0,
                 level: -stiffness * from,
             };
             let clips = *release == Release::ZeroForce && extra != 0.0;

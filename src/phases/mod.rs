@@ -232,13 +232,13 @@ impl Phases {
     }
 
     /// Push of drive and external force per mass, in m/s^2.
-    pub(crate) fn push(&self, drive: DriveAngle, force: &Polynomial) -> f64 {
+    pub(crate) fn forcing_per_mass(&self, drive: DriveAngle, force: &Polynomial) -> f64 {
         self.amplitude * drive.cos + force.value() / self.mass
     }
 
     /// [`Phase::acceleration`] of a phase.
-    pub fn acceleration(&self, phase: PhaseId, position: f64, velocity: f64, push: f64) -> f64 {
-        self[phase].acceleration(position, velocity, push, self.mass)
+    pub fn acceleration(&self, phase: PhaseId, position: f64, velocity: f64, forcing: f64) -> f64 {
+        self[phase].acceleration(position, velocity, forcing, self.mass)
     }
 }
 
@@ -255,11 +255,11 @@ impl Phase {
             .map_or(0.0, |hertz| hertz.force(position, velocity))
     }
 
-    /// Acceleration in m/s^2 of any state under the external force `push` per mass.
-    pub fn acceleration(&self, position: f64, velocity: f64, push: f64, mass: f64) -> f64 {
+    /// Acceleration in m/s^2 of any state under the external force `forcing` per mass.
+    pub fn acceleration(&self, position: f64, velocity: f64, forcing: f64, mass: f64) -> f64 {
         let force = self.law.force - self.hertz_force(position, velocity);
         self.flow
-            .acceleration(position, velocity, push + force / mass)
+            .acceleration(position, velocity, forcing + force / mass)
     }
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop together.

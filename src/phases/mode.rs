@@ -117,23 +117,23 @@ impl Surface {
 }
 
 impl Phases {
-    /// The mode at any state. `push` is the external force per mass in m/s^2, `fed` says whether a
+    /// The mode at any state. `forcing` is the external force per mass in m/s^2, `fed` says whether a
     /// strip lies beyond the clearance.
-    pub fn mode_at(&self, position: f64, velocity: f64, push: f64, fed: bool) -> Mode {
+    pub fn mode_at(&self, position: f64, velocity: f64, forcing: f64, fed: bool) -> Mode {
         if velocity == 0.0
             && let Some(wall) = self.walls().find(|wall| wall.is_reached(position))
         {
-            return self.mode_from_rest(wall.sticking_at(wall.beyond), position, push);
+            return self.mode_from_rest(wall.sticking_at(wall.beyond), position, forcing);
         }
         match self.layer_at(position, fed) {
             Some(layer) if position == layer.from => {
                 let rounding = RestThreshold::ROUNDING;
-                self.mode_at_surface(&self[layer.surface], velocity, push, fed, rounding)
+                self.mode_at_surface(&self[layer.surface], velocity, forcing, fed, rounding)
             }
             _ => match self.laws_at(position, velocity, fed) {
                 [forward, backward] if forward == backward => Mode::Moving(forward),
                 [forward, backward] => {
-                    self.mode_from_rest(Sticking::between(forward, backward), position, push)
+                    self.mode_from_rest(Sticking::between(forward, backward), position, forcing)
                 }
             },
         }
@@ -178,23 +178,23 @@ impl Phases {
         }
     }
 
-    /// The mode after reaching a surface under a push per mass, with a strip beyond the clearance (`fed`) or without.
+    /// The mode after reaching a surface under a forcing per mass, with a strip beyond the clearance (`fed`) or without.
     /// Where both sides press the mass onto it, a bounce below the threshold counts as rest.
     pub(crate) fn mode_at_surface(
         &self,
         at: &Surface,
         velocity: f64,
-        push: f64,
+        forcing: f64,
         fed: bool,
         RestThreshold { height, slowest }: RestThreshold,
     ) -> Mode {
         let beyond = self.beyond(at, fed);
-        let held = self.mode_from_rest(at.sticking_at(beyond), at.position, push);
+        let held = self.mode_from_rest(at.sticking_at(beyond), at.position, forcing);
         let rests = matches!(held, Mode::Held(_));
         let faint = || {
             velocity.abs() < slowest
-                || self.bounce_height(at, beyond, velocity, push) < height * at.position.abs()
-                || self.is_faint(at, velocity, push, fed)
+                || self.bounce_height(at, beyond, velocity, forcing) < height * at.position.abs()
+                || self.is_faint(at, velocity, forcing, fed)
         };
         if velocity == 0.0 || (rests && faint()) {
             held
@@ -208,8 +208,8 @@ impl Phases {
     }
 
     /// The mode of a mass at rest between two laws.
-    pub(crate) fn mode_from_rest(&self, hold: Sticking, position: f64, push: f64) -> Mode {
-        let acceleration = |phase| self.acceleration(phase, position, 0.0, push);
+    pub(crate) fn mode_from_rest(&self, hold: Sticking, position: f64, forcing: f64) -> Mode {
+        let acceleration = |phase| self.acceleration(phase, position, 0.0, forcing);
         match hold {
             Sticking {
                 forward: Some(phase),
@@ -225,34 +225,34 @@ impl Phases {
 
     /// The mode of a mass that has come to rest under dry friction. Within rounding of a balance it is
     /// held: a creep that ends there would else turn back and forth for ever.
-    pub(crate) fn mode_at_reversal(&self, hold: Sticking, position: f64, push: f64) -> Mode {
+    pub(crate) fn mode_at_reversal(&self, hold: Sticking, position: f64, forcing: f64) -> Mode {
         let balanced = |id: PhaseId| {
             let phase = &self[id];
             let pull = phase.flow.modes.stiffness * position;
-            let size = push.abs() + (phase.law.force / self.mass).abs() + pull.abs();
-            self.acceleration(id, position, 0.0, push).abs() <= 4.0 * f64::EPSILON * size
+            let size = forcing.abs() + (phase.law.force / self.mass).abs() + pull.abs();
+            self.acceleration(id, position, 0.0, forcing).abs() <= 4.0 * f64::EPSILON * size
         };
         if hold.phases().any(balanced) {
             return Mode::Held(hold);
         }
-        self.mode_from_rest(hold, position, push)
+        self.mode_from_rest(hold, position, forcing)
     }
 
-    /// The guards that let a mass go that is held since the push was `push`; [`Sticking::after_release`] says where.
-    pub(crate) fn release_guards(&self, hold: Sticking, position: f64, push: f64) -> Vec<Guard> {
+    /// The guards that let a mass go that is held since the forcing was `forcing`; [`Sticking::after_release`] says where.
+    pub(crate) fn release_guards(&self, hold: Sticking, position: f64, forcing: f64) -> Vec<Guard> {
         let balance = |phase| -self.acceleration(phase, position, 0.0, 0.0);
         // A hold may begin within rounding of a balance; the guard then begins at zero.
-        let on = |phase| Guard::push_above(balance(phase).max(push));
-        let back = |phase| Guard::push_below(balance(phase).min(push));
+        let on = |phase| Guard::forcing_above(balance(phase).max(forcing));
+        let back = |phase| Guard::forcing_below(balance(phase).min(forcing));
         let (forward, backward) = (hold.forward.map(on), hold.backward.map(back));
         forward.into_iter().chain(backward).collect()
     }
 
     /// True if a bounce cannot be told from none: lower than four units in the last place of the position, or as slow
     /// as what the force brings about within the resolution of time.
-    pub(crate) fn is_faint(&self, at: &Surface, velocity: f64, push: f64, fed: bool) -> bool {
+    pub(crate) fn is_faint(&self, at: &Surface, velocity: f64, forcing: f64, fed: bool) -> bool {
         let beyond = self.beyond(at, fed);
-        let height = self.bounce_height(at, beyond, velocity, push);
+        let height = self.bounce_height(at, beyond, velocity, forcing);
         let period = std::f64::consts::TAU / self.frequency;
         let resolution = 4.0 * f64::EPSILON * period;
         // A bounce of height h under the acceleration a takes v / a each way.
@@ -261,8 +261,8 @@ impl Phases {
     }
 
     /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.
-    fn bounce_height(&self, at: &Surface, beyond: Beyond, velocity: f64, push: f64) -> f64 {
-        let acceleration = |phase| self.acceleration(phase, at.position, 0.0, push).abs();
+    fn bounce_height(&self, at: &Surface, beyond: Beyond, velocity: f64, forcing: f64) -> f64 {
+        let acceleration = |phase| self.acceleration(phase, at.position, 0.0, forcing).abs();
         let sides = at.sticking_at(beyond).phases().map(acceleration);
         velocity * velocity / (2.0 * sides.fold(f64::INFINITY, f64::min))
     }

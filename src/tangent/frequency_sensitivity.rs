@@ -39,8 +39,8 @@ impl FrequencySensitivity {
             let (x, v) = (state.position, state.velocity);
             let hertz = arc.phase.and_then(|phase| phase.hertz);
             let press = hertz.map_or(0.0, |hertz| hertz.force(x, v) / hertz.mass);
-            let push = arc.course.push(elapsed) - press;
-            Vector2::new(v, flow.acceleration(x, v, push))
+            let forcing = arc.course.forcing_at(elapsed) - press;
+            Vector2::new(v, flow.acceleration(x, v, forcing))
         };
         Some(self.change? - rate * (time / flow.frequency))
     }

@@ -131,7 +131,7 @@ impl Observer for ParameterSensitivity<'_> {
     fn crossing(&mut self, crossing: &Crossing) {
         let (v, a) = (crossing.velocity, crossing.acceleration_before);
         let (v_after, a_after) = (crossing.velocity_after, crossing.acceleration_after);
-        let push = self.drive * self.cos;
+        let forcing = self.drive * self.cos;
         let is_held = v_after == 0.0 && a_after == 0.0;
         let delays = self.crossing_delays(crossing);
         let surfaces = self.surface_derivatives(crossing);
@@ -143,7 +143,7 @@ impl Observer for ParameterSensitivity<'_> {
                 | CrossingKind::Rest
                     if is_held =>
                 {
-                    column.z += push * (place - column.x);
+                    column.z += forcing * (place - column.x);
                     (column.x, column.y) = (place, 0.0);
                 }
                 CrossingKind::Surface { .. } => column.y += (a - a_after) * delay,
@@ -151,7 +151,7 @@ impl Observer for ParameterSensitivity<'_> {
                     let kept = v_after / v;
                     column.x += (v - v_after) * delay;
                     column.y = kept * (column.y + a * delay) - restitution * v - a_after * delay;
-                    column.z += push * (v - v_after) * delay;
+                    column.z += forcing * (v - v_after) * delay;
                 }
                 CrossingKind::Reversal => column.y += (a - a_after) * delay,
                 CrossingKind::Rest => column.x = f64::NAN,

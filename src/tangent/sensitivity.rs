@@ -44,14 +44,14 @@ pub struct Sensitivity {
 
 impl Simulation {
     /// The derivatives of the present outputs along a direction of change at the beginning of the last
-    /// advance (or where [`Simulation::mark`] was called since). Crossings are passed with their
+    /// advance (or where [`Simulation::set_checkpoint`] was called since). Crossings are passed with their
     /// saltation matrices; at a graze, where the derivative does not exist, it is huge.
     ///
     /// # Errors
     /// [`MotionError`] if the stretch cannot be gone through again.
     pub fn sensitivity(&self, by: &Perturbation) -> Result<Sensitivity, MotionError> {
         let (scene, now) = (self.scene(), self.motion());
-        let mut motion = self.motion_at_mark();
+        let mut motion = self.motion_at_checkpoint();
         let stored = energy_change(scene, &motion, by.position, by.velocity);
         let mut watch = SensitivityRecorder {
             mass: scene.mass,
@@ -99,7 +99,7 @@ struct SensitivityRecorder {
     velocity: f64,
     supplied: f64,
     /// Push in N at the end of the last arc.
-    push: f64,
+    forcing: f64,
     /// Changes of the time and the velocity of the last impact.
     impact: (f64, f64),
 }
@@ -109,11 +109,11 @@ impl Observer for SensitivityRecorder {
         let by = Variation {
             position: self.position,
             velocity: self.velocity,
-            push: self.force / self.mass,
+            forcing: self.force / self.mass,
         };
         let law = arc.phase.map_or(0.0, |phase| phase.law.force / self.mass);
         self.supplied += self.mass * arc.course.supply_variation(elapsed, by, law);
-        self.push = self.mass * (arc.course.push(elapsed) - law);
+        self.forcing = self.mass * (arc.course.forcing_at(elapsed) - law);
         (self.position, self.velocity) = arc.course.state_variation(elapsed, by);
     }
 
@@ -129,8 +129,8 @@ impl Observer for SensitivityRecorder {
             let side = 1f64.copysign(v);
             self.impact = (later, side * (self.velocity + a * later));
         }
-        // The push works on another velocity from an impact on that comes later.
-        self.supplied += self.push * (v - crossing.velocity_after) * later;
+        // The forcing works on another velocity from an impact on that comes later.
+        self.supplied += self.forcing * (v - crossing.velocity_after) * later;
         let after = saltation(crossing) * nalgebra::Vector2::new(self.position, self.velocity);
         (self.position, self.velocity) = (after.x, after.y);
     }

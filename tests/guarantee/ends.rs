@@ -123,10 +123,10 @@ impl Check<'_> {
         if end.position != leg.position || end.velocity_after != 0.0 {
             return wrong("a held mass moves".into());
         }
-        let push = m.amplitude * (leg.angle + turn).cos();
+        let forcing = m.amplitude * (leg.angle + turn).cos();
         let mut modes = Vec::new();
         if let (Some((most, size, rounding)), Some(layer)) = (ahead, upper)
-            && (push - most).abs() < grain(size, rounding)
+            && (forcing - most).abs() < grain(size, rounding)
         {
             modes.push(Mode::Moving {
                 layer,
@@ -134,7 +134,7 @@ impl Check<'_> {
                 released: false,
             });
         }
-        if (push - behind.0).abs() < grain(behind.1, behind.2) {
+        if (forcing - behind.0).abs() < grain(behind.1, behind.2) {
             let forward = !m.layers[lower].friction;
             modes.push(Mode::Moving {
                 layer: lower,
@@ -144,7 +144,7 @@ impl Check<'_> {
         }
         if modes.is_empty() {
             return wrong(format!(
-                "released at {push} between {:?} and {ahead:?}",
+                "released at {forcing} between {:?} and {ahead:?}",
                 behind.0
             ));
         }

@@ -170,11 +170,11 @@ impl Piece for Linear {
             let (p, f) = (self.particular(t), self.free(t));
             (p.0 + f.0, p.1 + f.1)
         };
-        let push = self.at.amplitude * (self.at.angle + self.at.frequency * t).cos();
+        let forcing = self.at.amplitude * (self.at.angle + self.at.frequency * t).cos();
         State {
             u,
             v,
-            a: self.at.constant + push - b * v - k * u,
+            a: self.at.constant + forcing - b * v - k * u,
         }
     }
 
@@ -194,16 +194,16 @@ impl Piece for Linear {
 
 fn taylor(at: &Setting) -> [f64; ORDER] {
     let (s, c) = at.angle.sin_cos();
-    let mut push = at.amplitude;
+    let mut forcing = at.amplitude;
     let mut out = [0.0; ORDER];
     out[1] = at.velocity;
     for n in 0..ORDER - 2 {
         let wave = [c, -s, -c, s][n % 4];
         let constant = if n == 0 { at.constant } else { 0.0 };
         let (i, j) = ((n + 1) as f64, (n + 2) as f64);
-        let force = constant + push * wave - at.damping * i * out[n + 1] - at.stiffness * out[n];
+        let force = constant + forcing * wave - at.damping * i * out[n + 1] - at.stiffness * out[n];
         out[n + 2] = force / (i * j);
-        push *= at.frequency / i;
+        forcing *= at.frequency / i;
     }
     out
 }

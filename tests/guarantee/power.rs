@@ -94,8 +94,8 @@ impl Power {
     }
 
     fn smooth(&self, d: f64, v: f64, angle: f64) -> f64 {
-        let push = self.amplitude * angle.cos() - self.offset;
-        push - self.suspension * d - self.damping * v
+        let forcing = self.amplitude * angle.cos() - self.offset;
+        forcing - self.suspension * d - self.damping * v
     }
 
     /// The motion from a deflection over a time; none if it takes more than `budget` steps.
@@ -219,10 +219,10 @@ impl Power {
         let mut x = [0.0; ORDER];
         let (mut w, mut q) = ([0.0; ORDER], [0.0; ORDER]);
         (x[0], x[1], w[0]) = (d, v * h, power);
-        let mut push = self.amplitude;
+        let mut forcing = self.amplitude;
         for j in 0..ORDER - 2 {
             let (i1, i2) = ((j + 1) as f64, (j + 2) as f64);
-            let mut force = push * [c, -s, -c, s][j % 4];
+            let mut force = forcing * [c, -s, -c, s][j % 4];
             if j == 0 {
                 force -= self.offset + frozen;
             }
@@ -236,7 +236,7 @@ impl Power {
             }
             force -= self.suspension * x[j] + self.damping * i1 * x[j + 1] / h;
             x[j + 2] = h * h * force / (i1 * i2);
-            push *= self.frequency * h / i1;
+            forcing *= self.frequency * h / i1;
         }
         Step {
             begin: 0.0,

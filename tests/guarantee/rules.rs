@@ -83,10 +83,10 @@ impl Machine {
         lower: usize,
         angle: f64,
     ) -> [(f64, f64); 2] {
-        let push = self.amplitude * angle.cos();
+        let forcing = self.amplitude * angle.cos();
         let by = |layer: usize, forward: bool| {
             let (force, size, rounding) = self.resistance(layer, forward, position);
-            (push - force, BALANCE * size + rounding)
+            (forcing - force, BALANCE * size + rounding)
         };
         let ahead = upper.map_or((f64::NEG_INFINITY, 0.0), |upper| by(upper, true));
         [ahead, by(lower, false)]
@@ -186,9 +186,9 @@ impl Machine {
     /// Time that bounces from a wall take which begin with a speed, under constant forces.
     pub fn bounces(&self, layer: usize, speed: f64, angle: f64) -> Option<f64> {
         let (position, restitution) = self.wall?;
-        let push = self.amplitude * angle.cos();
+        let forcing = self.amplitude * angle.cos();
         let acceleration =
-            |forward| (push - self.resistance(layer, forward, position).0) / self.mass;
+            |forward| (forcing - self.resistance(layer, forward, position).0) / self.mass;
         let (out, back) = (acceleration(false), acceleration(true));
         let ratio = restitution * (back / out).sqrt();
         let first = speed * (1.0 / out + 1.0 / (out * back).sqrt());

@@ -163,8 +163,8 @@ impl<'a> Oracle<'a> {
         let force =
             |(face, signs): (&Face<'_>, &Vec<bool>)| face.force(scene, (x, v), signs, forward);
         let contact: f64 = faces.map(force).sum();
-        let push = drive.amplitude * (drive.frequency * time + drive.phase).cos();
-        (push - contact - scene.damping * v - scene.stiffness * x) / scene.mass
+        let forcing = drive.amplitude * (drive.frequency * time + drive.phase).cos();
+        (forcing - contact - scene.damping * v - scene.stiffness * x) / scene.mass
     }
 
     /// The state a step later under the law that holds now.

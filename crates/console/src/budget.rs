@@ -61,7 +61,7 @@ impl Budget {
         work: impl FnOnce() -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let windows = self.windows().saturating_mul(count.div_ceil(1000) as u64);
-        let (done, spent) = budget::within(windows, work);
+        let (done, spent) = budget::run_within(windows, work);
         match done {
             _ if interrupt::requested() => Err(Failure::Interrupted),
             done if spent < windows => done,

@@ -48,11 +48,11 @@ fn answers(scene: &Scene, windows: u64) -> [(Option<String>, u64); 3] {
     };
     let start = Start::new(scene.clearance - scene.clearance.abs(), 0.0);
     [
-        told(budget::within(windows, || format!("{:?}", find(scene)))),
-        told(budget::within(windows, || {
+        told(budget::run_within(windows, || format!("{:?}", find(scene)))),
+        told(budget::run_within(windows, || {
             format!("{:?}", find_attractors(scene, &options, &unmonitored))
         })),
-        told(budget::within(windows, || {
+        told(budget::run_within(windows, || {
             format!(
                 "{:?}",
                 settling.follow_motions(&[(scene, start)], &unmonitored)
@@ -92,7 +92,7 @@ proptest! {
 #[test]
 fn a_spent_budget_ends_every_motion_at_once() {
     let scene = softstop_testing::scenes::unloaded(1.15);
-    let (stopped, spent) = budget::within(0, || {
+    let (stopped, spent) = budget::run_within(0, || {
         let mut motion = scene.motion(Start::new(6.9, 9.5)).expect("a start");
         let until = motion.clock().instant(1000.0);
         motion.watch(until, &mut ())

@@ -67,7 +67,7 @@ impl Branches {
     /// it is stable.
     pub(crate) fn answer(&self, machine: &Machine) -> Answered {
         let along = parameter(machine, &self.along)?;
-        let (found, _) = budget::within(BUDGET, || self.find(machine, along));
+        let (found, _) = budget::run_within(BUDGET, || self.find(machine, along));
         let (zone, branches) = found;
         let points = branches.iter().flat_map(|branch| &branch.points);
         let numbers = points.flat_map(|it| {

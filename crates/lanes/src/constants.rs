@@ -36,7 +36,7 @@ impl Constants {
             match *exit {
                 Exit::Forward(surface) => constants.end_at(phases, surface, true),
                 Exit::Backward(surface) => constants.end_at(phases, surface, false),
-                Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.push != 0.0 => {
+                Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.forcing != 0.0 => {
                     return None;
                 }
                 Exit::Reversal { forward, backward } => {
@@ -99,7 +99,7 @@ impl Constants {
             return None;
         }
         let press = hertz.stiffness / hertz.mass;
-        let push = phase.law.force / phases.mass - flow.modes.stiffness * hertz.origin;
+        let forcing = phase.law.force / phases.mass - flow.modes.stiffness * hertz.origin;
         *constants = Self {
             damping: -2.0 * flow.modes.decay,
             stiffness: -flow.modes.stiffness,
@@ -110,7 +110,7 @@ impl Constants {
             slip: -1.0 / hertz.dissipation,
             side: hertz.side,
             amplitude: hertz.side * flow.amplitude,
-            push: hertz.side * push,
+            forcing: hertz.side * forcing,
             level: f64::INFINITY,
             ..*constants
         };

@@ -231,10 +231,10 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         let turn = frequency * rate;
         self.cos[k + 1] = -(turn * by_sin);
         self.sin[k + 1] = turn * by_cos;
-        let push = law
-            .push
+        let forcing = law
+            .forcing
             .mul_add(self.root[k], law.amplitude.mul_add(by_cos, -press));
-        let driven = rate.mul_add(push, law.damping * self.depth[k + 1]);
+        let driven = rate.mul_add(forcing, law.damping * self.depth[k + 1]);
         self.root[k + 2] = after * driven;
     }
 

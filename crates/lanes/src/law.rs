@@ -123,14 +123,14 @@ law! {
     end_bounce,
     end_impact,
     /// The power law beyond the one end: kappa and kappa lambda per mass, the exponent, the velocity below which it does not
-    /// grip, and the drive's amplitude and the constant push there per mass, away from the end as the velocity. None where the
+    /// grip, and the drive's amplitude and the constant forcing there per mass, away from the end as the velocity. None where the
     /// law is linear.
     press,
     exponent,
     grip,
     slip,
     amplitude,
-    push,
+    forcing,
     /// Positions closer than this to a guard are not decided here, nor velocities below `slow`.
     ambiguity,
     slow,

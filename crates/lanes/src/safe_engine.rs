@@ -66,7 +66,7 @@ pub(super) fn follow_safely(
     };
     let mut motion = Motion::new(machine.scene(), at, place.state)?;
     if let Some(phase) = place.phase {
-        motion.go_by_phase(phase);
+        motion.assume_phase(phase);
     }
     let mut counter = Counter {
         job: place.job,

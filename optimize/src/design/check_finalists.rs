@@ -56,7 +56,7 @@ pub(super) fn check_finalists(
     if tried.passing.is_empty() && bound == 0.0 && problem.traded.is_empty() {
         let known = tried.failed.len();
         let look = || try_distant_values(&mut tried);
-        let ((), spent) = budget::within(DISTANT_WINDOWS, look);
+        let ((), spent) = budget::run_within(DISTANT_WINDOWS, look);
         if spent >= DISTANT_WINDOWS {
             // What ended then fails for want of work.
             tried.failed.truncate(known);

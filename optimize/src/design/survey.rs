@@ -136,7 +136,7 @@ impl<'a> Survey<'a> {
 
     /// Does work within the budget. Each part may cost what is left: whether the sum is over it does not depend on threads.
     pub(super) fn charged<T>(&self, work: impl FnOnce() -> T) -> T {
-        let (done, spent) = budget::within(self.left.load(Ordering::Relaxed), work);
+        let (done, spent) = budget::run_within(self.left.load(Ordering::Relaxed), work);
         let less = |left: u64| Some(left.saturating_sub(spent));
         let _ = self
             .left
@@ -169,7 +169,7 @@ impl<'a> Survey<'a> {
             self.watch.evaluated(value);
             // A recalled point has no design.
             if value.is_some() && self.incumbent.is_beaten_by(-cost) {
-                budget::within(u64::MAX, || self.compute(from_ref(unit)));
+                budget::run_within(u64::MAX, || self.compute(from_ref(unit)));
             }
             let unit = unit.clone();
             Point { unit, cost, ranges }

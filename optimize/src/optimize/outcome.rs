@@ -26,7 +26,7 @@ pub(crate) fn for_picture<T, E: Display>(
     picture: &str,
     work: impl FnOnce() -> Result<T, E>,
 ) -> Result<T, String> {
-    let (done, spent) = budget::within(PICTURE_WINDOWS, work);
+    let (done, spent) = budget::run_within(PICTURE_WINDOWS, work);
     match done {
         _ if spent >= PICTURE_WINDOWS => Err(format!(
             "{picture}: it takes more than {} million scan windows",

@@ -67,9 +67,9 @@ impl ContactFace {
 
     /// Acceleration in m/s^2 of the mass in a phase at the face, at an instant with a velocity in m/s.
     fn acceleration_at_face(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
-        let push = self.phases.amplitude * self.clock.drive(at).cos;
+        let forcing = self.phases.amplitude * self.clock.drive(at).cos;
         self.phases
-            .acceleration(phase, self.face_position(), velocity, push)
+            .acceleration(phase, self.face_position(), velocity, forcing)
     }
 
     /// The free motion from the face, at an instant with a velocity in m/s, as if there were no stop.
@@ -79,7 +79,7 @@ impl ContactFace {
             position: self.face_position(),
             velocity,
             drive: self.clock.drive(at),
-            push: Polynomial::linear(free.law.force / self.phases.mass, 0.0),
+            forcing: Polynomial::linear(free.law.force / self.phases.mass, 0.0),
             acceleration: None,
         };
         ArcSolution::new(&free.flow, departure)

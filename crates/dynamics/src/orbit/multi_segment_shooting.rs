@@ -243,8 +243,8 @@ impl MultiSegmentShooting {
             let drive = clock.drive(to);
             let (position, velocity) = passing.course.state_at(flight, drive);
             let course = &passing.course;
-            let push = course.flow.amplitude * drive.cos;
-            let acceleration = course.flow.acceleration(position, velocity, push);
+            let forcing = course.flow.amplitude * drive.cos;
+            let acceleration = course.flow.acceleration(position, velocity, forcing);
             let through = course.flow.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * segment, 2 * segment, 2 * next);
             let mut fit = evaluation.residual.fixed_rows_mut::<2>(rows);

@@ -312,8 +312,8 @@ fn nearest_miss(motion: &Trajectory, face: f64) -> Option<(f64, (f64, f64))> {
     let misses = free.flat_map(|(arc, elapsed)| {
         let back = turning_points(arc.course, elapsed, true).filter(|turn| turn.back);
         back.map(move |turn| {
-            let push = arc.course.flow.amplitude * arc.drive(turn.elapsed).cos;
-            let acceleration = arc.course.flow.acceleration(turn.position, 0.0, push);
+            let forcing = arc.course.flow.amplitude * arc.drive(turn.elapsed).cos;
+            let acceleration = arc.course.flow.acceleration(turn.position, 0.0, forcing);
             let depth = face - turn.position;
             let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
             let at = arc.clock.after(arc.start, turn.elapsed);

@@ -206,9 +206,9 @@ pub(super) fn force_peaks<'a>(
     let free = &phases[PhaseId::FREE].law;
     let state = move |time: f64| {
         let at = arc.at(time);
-        let push = phases.amplitude * arc.drive(time).cos;
+        let forcing = phases.amplitude * arc.drive(time).cos;
         let (x, v) = (at.position, at.velocity);
-        [x, v, phases.acceleration(phase.id, x, v, push)]
+        [x, v, phases.acceleration(phase.id, x, v, forcing)]
     };
     let rate = move |time: f64| {
         let [x, v, a] = state(time);

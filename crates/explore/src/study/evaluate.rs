@@ -55,7 +55,7 @@ impl Study {
             row
         };
         let within = evaluation.and_then(|evaluation| {
-            let (row, spent) = budget::within(self.budget.windows(), || {
+            let (row, spent) = budget::run_within(self.budget.windows(), || {
                 told(&|output| output.value(evaluation))
             });
             (spent < self.budget.windows()).then_some(row)
@@ -72,7 +72,7 @@ impl Study {
         machines: &'a [Machine],
     ) -> Result<Vec<Option<PointEvaluation<'a>>>, Failure> {
         let (prepared, spent) =
-            budget::within(self.budget.windows(), || self.prepare_together(machines));
+            budget::run_within(self.budget.windows(), || self.prepare_together(machines));
         if interrupt::requested() {
             return Err(Failure::Interrupted);
         }

@@ -70,13 +70,13 @@ impl<'a> Located<'a> {
         }
     }
 
-    /// The value of a guard in a state; a held mass is let go by the push of the drive, which is counted.
+    /// The value of a guard in a state; a held mass is let go by the forcing of the drive, which is counted.
     fn guard_value(&mut self, law: &Guard, elapsed: f64, state: State) -> f64 {
         if self.walk.phase_id().is_some() {
             return law.value_at(state.position, state.velocity);
         }
         self.machine.work.evaluations += 1;
-        law.push * self.machine.push(self.at.time + elapsed) - law.level
+        law.forcing * self.machine.push(self.at.time + elapsed) - law.level
     }
 
     /// The first of the guards to be above zero at the end of a step, where it rises.
@@ -118,8 +118,8 @@ impl<'a> Located<'a> {
     /// What rounding may leave of a guard that begins on zero.
     fn noise(&self, guard: &Guard, (span, to): &(f64, State)) -> f64 {
         let speed = to.velocity.abs().max(self.at.from.velocity.abs());
-        let push = self.machine.phases().amplitude;
-        let gained = span * (push + to.acceleration.abs());
+        let forcing = self.machine.phases().amplitude;
+        let gained = span * (forcing + to.acceleration.abs());
         let position = (guard.position * to.position).abs() + guard.level.abs();
         let velocity = guard.velocity.abs() * (speed.min(gained));
         8.0 * f64::EPSILON * (position + velocity)

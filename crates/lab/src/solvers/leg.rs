@@ -14,7 +14,7 @@ pub(super) type SolverState = [f64; 2];
 pub(super) struct Leg<'a> {
     scene: &'a Scene,
     /// The phase whose law holds under the drive. Without one the mass is held: q'' = -w^2 q, q the drive per mass, so that
-    /// the solver has something to resolve until the push lets the mass go.
+    /// the solver has something to resolve until the forcing lets the mass go.
     phase: Option<&'a Phase>,
     guards: &'a [Guard],
     evaluations: Cell<u64>,
@@ -32,7 +32,7 @@ impl<'a> Leg<'a> {
     /// The leg that follows in a walk: the motion in a phase or, while the mass is held, that of the drive.
     pub fn new(scene: &'a Scene, walk: &'a PhaseTracker, until: f64, most_steps: u64) -> Self {
         let (from, start) = (walk.time(), walk.state());
-        let (push, rate) = drive(scene, from);
+        let (forcing, rate) = drive(scene, from);
         Self {
             scene,
             phase: walk.phase(),
@@ -41,7 +41,7 @@ impl<'a> Leg<'a> {
             from,
             state: match walk.phase() {
                 Some(_) => [start.position, start.velocity],
-                None => [push, rate],
+                None => [forcing, rate],
             },
             until,
             most_steps,
@@ -63,8 +63,8 @@ impl<'a> Leg<'a> {
         self.count();
         let acceleration = match self.phase {
             Some(phase) => {
-                let (push, _) = drive(self.scene, time);
-                phase.acceleration(position, velocity, push, self.scene.mass)
+                let (forcing, _) = drive(self.scene, time);
+                phase.acceleration(position, velocity, forcing, self.scene.mass)
             }
             None => -self.scene.excitation.frequency.powi(2) * position,
         };
@@ -89,7 +89,7 @@ impl<'a> Leg<'a> {
         let guard = &self.guards[index];
         let weighted = match self.phase {
             Some(_) => guard.position * first + guard.velocity * second,
-            None => guard.push * first,
+            None => guard.forcing * first,
         };
         weighted - guard.level
     }

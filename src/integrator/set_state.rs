@@ -10,16 +10,18 @@ impl Motion {
     /// The guards that end the present law, each with its value in the present state.
     fn guard_values(&self) -> impl Iterator<Item = (Guard, f64)> {
         let Start { position, velocity } = self.state();
-        let push = self.phases.push(self.clock.drive(self.now), &self.force());
+        let forcing = self
+            .phases
+            .forcing_per_mass(self.clock.drive(self.now), &self.force());
         let guards = self.present_guards().into_owned();
         guards.into_iter().map(move |guard| {
-            let value = guard.value_at(position, velocity) + guard.push * push;
+            let value = guard.value_at(position, velocity) + guard.forcing * forcing;
             (guard, value)
         })
     }
 
     /// Begins an arc in a state by the law that holds, wherever that is.
-    pub(super) fn put_in_state(&mut self, state: Start) {
+    pub(super) fn begin_in_state(&mut self, state: Start) {
         let drive = self.clock.drive(self.now);
         let departure = self.arc_departure(state, drive, self.mode, None);
         let is_before_face = |phase: &&Phase| {
@@ -60,37 +62,37 @@ impl Motion {
 impl Simulation {
     /// Puts the mass in another state at another time in s, whatever surface lies between, where it goes on by the law that
     /// holds now. Energies go on from where they are.
-    pub fn put(&mut self, time: f64, state: impl Into<Start>) {
+    pub fn set_state(&mut self, time: f64, state: impl Into<Start>) {
         self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
         let motion = &mut self.motion;
         let at = motion.clock.instant(time - self.epoch);
         let elapsed = motion.clock.elapsed(motion.start, at);
         motion.force.next_arc(&motion.clock, at, elapsed);
         (motion.start, motion.now) = (at, at);
-        motion.put_in_state(state.into());
-        (self.now, self.mark) = (time, Checkpoint::OnArc(at));
+        motion.begin_in_state(state.into());
+        (self.now, self.checkpoint) = (time, Checkpoint::OnArc(at));
     }
 
     /// Goes on by the law of another machine with these phases, and stands right before the crossing that ends it where the
     /// present state lies beyond that: [`Simulation::cross`] lets it happen.
-    pub fn keep_law(&mut self, of: &Self) {
+    pub fn continue_law_of(&mut self, of: &Self) {
         self.motion.mode = of.motion.mode;
-        self.motion.put_in_state(self.motion.state());
+        self.motion.begin_in_state(self.motion.state());
         self.motion.face_passed_guard();
     }
 
     /// How far the state is from the ends of the present law, each in parts of what a `length` in m amounts to: below zero
     /// beyond one.
-    pub fn margins(&self, length: f64) -> impl Iterator<Item = f64> {
+    pub fn guard_margins(&self, length: f64) -> impl Iterator<Item = f64> {
         let rate = self.scene.excitation.frequency;
         self.motion.guard_values().map(move |(guard, value)| {
             let Guard {
                 position,
                 velocity,
-                push,
+                forcing,
                 ..
             } = guard;
-            let weight = position.abs() + rate * (velocity.abs() + rate * push.abs());
+            let weight = position.abs() + rate * (velocity.abs() + rate * forcing.abs());
             -value / (weight * length)
         })
     }

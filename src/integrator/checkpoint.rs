@@ -14,30 +14,30 @@ impl Simulation {
     /// The machine as it was before the last advance, if that met a crossing or stopped on its way and
     /// nothing was set since.
     pub fn before_advance(&self) -> Option<Self> {
-        let Checkpoint::Before(origin) = &self.mark else {
+        let Checkpoint::Before(origin) = &self.checkpoint else {
             return None;
         };
         let mut machine = self.clone();
-        machine.mark = Checkpoint::OnArc(origin.motion.now());
+        machine.checkpoint = Checkpoint::OnArc(origin.motion.now());
         (machine.motion, machine.tallies.counts) = (origin.motion.clone(), origin.counts);
         machine.now = origin.now;
         Some(machine)
     }
 
     /// Sets the mark: lets the stretch of [`Simulation::sensitivity`] begin at the present time.
-    pub fn mark(&mut self) {
-        self.mark = Checkpoint::OnArc(self.motion.now());
+    pub fn set_checkpoint(&mut self) {
+        self.checkpoint = Checkpoint::OnArc(self.motion.now());
     }
 
     /// True if the mark is the start: the stretch of [`Simulation::sensitivity`] reaches back to it.
-    pub fn is_marked_at_start(&self) -> bool {
-        let (_, at) = self.motion_passing_mark();
+    pub fn is_checkpoint_at_start(&self) -> bool {
+        let (_, at) = self.motion_through_checkpoint();
         at == self.motion.clock().instant(self.begin - self.epoch)
     }
 
     /// The motion as it was at the mark, on an arc of its own from there on.
-    pub(crate) fn motion_at_mark(&self) -> Motion {
-        let (motion, at) = self.motion_passing_mark();
+    pub(crate) fn motion_at_checkpoint(&self) -> Motion {
+        let (motion, at) = self.motion_through_checkpoint();
         motion.restarted_at(at)
     }
 
@@ -46,12 +46,16 @@ impl Simulation {
     ///
     /// # Errors
     /// [`MotionError::BeyondStop`].
-    pub fn at_mark(&self, position: f64, velocity: f64) -> Result<Self, MotionError> {
-        let motion = self.motion_at_mark();
+    pub fn displaced_at_checkpoint(
+        &self,
+        position: f64,
+        velocity: f64,
+    ) -> Result<Self, MotionError> {
+        let motion = self.motion_at_checkpoint();
         let mut machine = self.clone();
         machine.now = self.time_of(motion.now());
         machine.tallies.counts.work = Work::default();
-        if let Checkpoint::Before(origin) = &self.mark {
+        if let Checkpoint::Before(origin) = &self.checkpoint {
             machine.now = origin.now;
             let work = machine.tallies.counts.work;
             machine.tallies.counts = Counts {
@@ -59,7 +63,7 @@ impl Simulation {
                 ..origin.counts
             };
         }
-        machine.mark = Checkpoint::OnArc(motion.now());
+        machine.checkpoint = Checkpoint::OnArc(motion.now());
         machine.motion = motion;
         if position != 0.0 || velocity != 0.0 {
             machine.motion.displace(position, velocity)?;
@@ -68,8 +72,8 @@ impl Simulation {
     }
 
     /// A motion that passes the mark, and when.
-    pub(super) fn motion_passing_mark(&self) -> (&Motion, Instant) {
-        match &self.mark {
+    pub(super) fn motion_through_checkpoint(&self) -> (&Motion, Instant) {
+        match &self.checkpoint {
             Checkpoint::OnArc(instant) => (&self.motion, *instant),
             Checkpoint::Before(origin) => (&origin.motion, origin.motion.now()),
         }
@@ -79,8 +83,8 @@ impl Simulation {
     ///
     /// # Errors
     /// [`MotionError`] if the stretch cannot be gone through again.
-    pub fn work_of(&self, force: &Polynomial) -> Result<f64, MotionError> {
-        let (motion, from) = self.motion_passing_mark();
+    pub fn work_since_checkpoint(&self, force: &Polynomial) -> Result<f64, MotionError> {
+        let (motion, from) = self.motion_through_checkpoint();
         let mut watch = WorkRecorder {
             clock: *motion.clock(),
             from,
@@ -93,15 +97,15 @@ impl Simulation {
 
     /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
     pub(super) fn replay(&self, observer: &mut dyn Observer) -> Result<(), MotionError> {
-        let mut motion = self.motion_passing_mark().0.clone();
+        let mut motion = self.motion_through_checkpoint().0.clone();
         motion.advance_like(&self.motion, observer)?;
         motion.tell_arc(observer);
         Ok(())
     }
 
-    /// True if the mass was free all over the last advance, or since [`Simulation::mark`] was called or something was set.
-    pub fn was_free(&self) -> bool {
-        matches!(self.mark, Checkpoint::OnArc(_)) && self.motion.kind() == PhaseKind::Free
+    /// True if the mass was free all over the last advance, or since [`Simulation::set_checkpoint`] was called or something was set.
+    pub fn was_free_since_checkpoint(&self) -> bool {
+        matches!(self.checkpoint, Checkpoint::OnArc(_)) && self.motion.kind() == PhaseKind::Free
     }
 }
 
