@@ -9,22 +9,22 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Cost of a crossing with the arc after it, in scan windows: a window takes some 10 ns, a crossing half a microsecond to two.
 pub(crate) const CROSSING: u64 = 64;
-/// Cost of the derivatives at a node of a scan, in windows, where a window is not passed at once.
+/// Cost, in scan windows, of the derivatives at a scan node, where a window is not passed at once.
 pub(crate) const NODE_DERIVATIVES: u64 = 8;
-/// Cost of a node that is computed anew with its derivatives, in windows.
+/// Cost, in windows, of a scan node that is computed anew, with its derivatives, where a window is halved.
 pub(crate) const EXACT_NODE: u64 = 96;
-/// Cost of the search of one window on its Taylor polynomial, in windows.
+/// Cost, in windows, of the search of one window on its Taylor polynomial.
 pub(crate) const POLYNOMIAL: u64 = 128;
-/// Cost of a halving, in windows: of a window whose polynomial leaves open what happens, or of a bracket in which
+/// Cost, in windows, of a halving: of a window in which a polynomial leaves open what happens, or of a bracket in which
 /// Newton's method does not converge.
 pub(crate) const HALVING: u64 = 4;
-/// Cost of zero-state responses without a closed form, in windows.
+/// Cost, in windows, of zero-state responses, which have no closed form.
 pub(crate) const ZERO_STATE_RESPONSES: u64 = 32;
 /// Further cost of zero-state responses for each doubling of their time, in windows.
 pub(crate) const DOUBLING: u64 = 8;
-/// Further cost of a Taylor step with state variations, in windows.
+/// Further cost, in windows, of a Taylor step whose variations with its start are computed too.
 pub(crate) const STATE_VARIATIONS: u64 = 256;
-/// Cost of a step of Newton's method for slow motion under heavy damping, in windows.
+/// Cost, in windows, of one step of Newton's method for the series of a motion on the slow manifold.
 pub(crate) const SLOW_MANIFOLD_STEP: u64 = 768;
 /// Cost of a Taylor step, in windows: it takes a microsecond.
 pub(crate) const TAYLOR_STEP: u64 = 128;
@@ -34,26 +34,26 @@ thread_local! {
     static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
 }
 
-/// Sets the former budget again, also after a panic.
-struct Restore(u64);
+/// Gives a thread its former budget back when it is dropped, also by a panic.
+struct RestoredBudget(u64);
 
-impl Drop for Restore {
+impl Drop for RestoredBudget {
     fn drop(&mut self) {
         LEFT.set(self.0);
     }
 }
 
-/// Does work within a budget of its own, in windows; what came of it, and what it cost. Work that is over its budget
-/// costs all of it.
+/// Does work on this thread under a budget of its own, in scan windows, and returns its result with what it cost. Work
+/// that is over its budget costs all of it.
 pub fn run_within<T>(windows: u64, work: impl FnOnce() -> T) -> (T, u64) {
-    let restore = Restore(LEFT.replace(windows));
+    let restore = RestoredBudget(LEFT.replace(windows));
     let done = work();
     let spent = windows - LEFT.get();
     drop(restore);
     (done, spent)
 }
 
-/// Counts work, in windows; false if nothing is left.
+/// Charges work, in scan windows, to the budget of this thread; false once nothing is left.
 #[inline]
 pub fn charge(windows: u64) -> bool {
     let left = LEFT.get().saturating_sub(windows);
@@ -61,19 +61,20 @@ pub fn charge(windows: u64) -> bool {
     left > 0
 }
 
-/// Windows that are left of the budget of this thread.
+/// Scan windows of work that are left of the budget of this thread.
 pub fn windows_left() -> u64 {
     LEFT.get()
 }
 
-/// True if nothing is left.
+/// True if nothing is left of the budget of this thread.
 #[inline]
 pub fn is_spent() -> bool {
     LEFT.get() == 0
 }
 
-/// Parts of one piece of work that go on several threads. Each may cost what was left before; all are charged together
-/// in the end. So whether the budget is spent depends on the work alone, not on the threads.
+/// The budget of one thread for a piece of work whose parts run on several threads. Each part may cost what was left
+/// before; all are charged together in the end. So whether the budget is spent depends on the work alone, not on the
+/// threads.
 #[derive(Debug)]
 pub struct SharedBudget {
     left: u64,
@@ -81,7 +82,7 @@ pub struct SharedBudget {
 }
 
 impl SharedBudget {
-    /// Shares what is left of the budget of this thread.
+    /// A budget to share: what is left of that of this thread.
     pub fn of_this_thread() -> Self {
         Self {
             left: LEFT.get(),
@@ -89,7 +90,8 @@ impl SharedBudget {
         }
     }
 
-    /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
+    /// Does a part of the work, on any thread, within the shared budget. Where other parts have spent all, it has
+    /// nothing: its result is discarded with theirs.
     pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> T {
         let is_open = self.spent.load(Ordering::Relaxed) < self.left;
         let (done, spent) = run_within(if is_open { self.left } else { 0 }, work);
@@ -100,7 +102,7 @@ impl SharedBudget {
         done
     }
 
-    /// Charges what all parts have cost, once they have ended.
+    /// Charges what all parts have cost to the budget of this thread, once they have ended.
     pub fn charge_parts(self) {
         charge(self.spent.into_inner());
     }

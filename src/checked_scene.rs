@@ -16,7 +16,7 @@ use crate::scene::{Parameter, Scene};
 #[serde(into = "Scene", try_from = "Scene")]
 pub struct CheckedScene(Arc<Lowered>);
 
-/// A scene and its phases.
+/// What the clones of a checked scene share: the scene, and its phases from when they are first asked for.
 #[derive(Debug, Clone)]
 struct Lowered {
     scene: Scene,
@@ -26,7 +26,7 @@ struct Lowered {
 }
 
 impl Scene {
-    /// Checks every parameter against its range, once for all that is asked of the scene.
+    /// Makes a [`CheckedScene`] of this scene if every parameter is in its range.
     ///
     /// # Errors
     /// As [`Scene::validate`].
@@ -66,7 +66,8 @@ impl PartialEq for CheckedScene {
 }
 
 impl CheckedScene {
-    /// A scene that is known to be valid; `like` is one that may differ from it in its drive alone, and then lends its phases.
+    /// Makes a checked scene of one that is known to be valid; `like` is one that may differ from it in its drive
+    /// alone, and then lends its phases.
     pub(crate) fn of_valid(mut scene: Scene, like: Option<&Self>) -> Self {
         let known = like.filter(|like| {
             let drive = replace(&mut scene.excitation, like.excitation);
@@ -94,7 +95,7 @@ impl CheckedScene {
         Ok(checked)
     }
 
-    /// The scene with another drive angle in rad at time 0.
+    /// This checked scene with another drive angle in rad at time 0.
     ///
     /// # Errors
     /// [`SceneError::OutOfRange`] if the angle is not finite.

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// A scene that does not describe a machine.
+/// Why a scene describes no machine.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -91,7 +91,7 @@ pub enum SceneError {
     },
 }
 
-/// A machine that its user states wrongly.
+/// What is wrong with a machine as its user states it, in a file or by changes.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MachineError {
@@ -205,7 +205,7 @@ impl From<SceneError> for MachineError {
     }
 }
 
-/// A number as it is, or with a power of ten if it would be long.
+/// The text of a number in an error message: as it is, or with a power of ten if it would be long.
 pub fn plain_number(value: f64) -> String {
     match value.abs() {
         0.0 | 1e-5..1e16 => value.to_string(),
@@ -214,12 +214,13 @@ pub fn plain_number(value: f64) -> String {
     }
 }
 
-/// The number of a line, before an error in it.
+/// The begin of an error message with the number of the line; empty without one.
 fn line_prefix(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
 }
 
-/// How revolutions per minute are stated, if a text speaks of them in place of a number.
+/// The end of an error message: how revolutions per minute are stated, if `text` speaks of them in place of a number;
+/// else empty.
 pub fn rpm_value_hint(text: &str) -> &'static str {
     match text.contains("rpm") {
         true => {
@@ -229,7 +230,7 @@ pub fn rpm_value_hint(text: &str) -> &'static str {
     }
 }
 
-/// What a key that no machine has says of its file or its value: how revolutions per minute are stated, if a key in Hz is
+/// The end of an error message on a key that no machine has: how revolutions per minute are stated, if a key in Hz is
 /// meant; which commands take a file that names a machine.
 fn key_hint(key: &str, meant: Option<&str>) -> &'static str {
     match (key, meant) {
@@ -243,12 +244,12 @@ fn key_hint(key: &str, meant: Option<&str>) -> &'static str {
     }
 }
 
-/// What a misspelt name may mean, in words; nothing if that is none.
+/// The end of an error message on a misspelt name: which `key` may be meant; empty if none is.
 pub fn did_you_mean(key: Option<&str>) -> String {
     key.map_or_else(String::new, |key| format!(" (did you mean {key}?)"))
 }
 
-/// A motion that cannot be carried on.
+/// Why a motion cannot begin or be carried on.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MotionError {

@@ -1,6 +1,8 @@
-//! A root between two ends, to a width that is asked for.
+//! A root between two ends: to a width that is asked for, or to rounding.
 
-/// A bracket of a root.
+use crate::budget;
+
+/// The narrowed bracket of a root, and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootBracket {
     /// Ends between which the function changes its sign.
@@ -74,6 +76,55 @@ pub fn narrow_root<E>(
         ends: (a, b),
         evaluations,
     })
+}
+
+/// The root of a function (value, derivative) that rises from <= 0 at `low` to > 0 at `high` (place, value): Newton's
+/// method, kept inside the bracket by bisection. It ends when the next step, foreseen from the last two as for
+/// quadratic convergence, would be lost in rounding.
+pub(crate) fn bracketed_newton(
+    (mut low, f_low): (f64, f64),
+    (mut high, f_high): (f64, f64),
+    guess: Option<f64>,
+    f: impl Fn(f64) -> (f64, f64),
+) -> f64 {
+    let secant = low - f_low * (high - low) / (f_high - f_low);
+    let guess = guess.unwrap_or(secant);
+    let mut at = if guess > low && guess < high {
+        guess
+    } else {
+        0.5 * (low + high)
+    };
+    let mut last_step: Option<f64> = None;
+    loop {
+        let (value, rate) = f(at);
+        if value > 0.0 {
+            high = at;
+        } else {
+            low = at;
+        }
+        let step = value / rate;
+        let next = at - step;
+        let shrinks = step.abs() < 0.5 * last_step.unwrap_or(2.0 * (high - low)).abs();
+        let converges = shrinks && next >= low && next <= high;
+        if converges && let Some(last) = last_step {
+            let foreseen = step.abs() * (step / last) * (step / last);
+            if foreseen <= 0.25 * f64::EPSILON * next.abs() {
+                return next;
+            }
+        }
+        let target = if converges {
+            next
+        } else {
+            // A thousand in a row where the bounces are as small as the least numbers.
+            budget::charge(budget::HALVING);
+            0.5 * (low + high)
+        };
+        if target <= low || target >= high {
+            return target.clamp(low, high);
+        }
+        last_step = converges.then_some(step);
+        at = target;
+    }
 }
 
 #[cfg(test)]

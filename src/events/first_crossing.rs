@@ -1,21 +1,23 @@
 //! The scan of an arc for its first crossing, window by window.
 
-use super::first_rise::{GuardPoint, GuardPolynomial, Verdict, judge_interval};
-use super::guard::{Guard, earliest_rise};
-use super::node_derivatives::{GuardEnds, NodeDerivatives};
+use super::first_rise::{GuardPoint, GuardPolynomial, RiseVerdict, earliest_rise, judge_interval};
+use super::guard::Guard;
+use super::guard_ends::GuardEnds;
+use super::node_derivatives::NodeDerivatives;
 use super::single_rise::locate_single_rise;
 use super::step_crossing::crossing_on_step;
 use super::{FoundCrossing, NextEvent};
 use crate::budget;
 use crate::flow::{ArcSolution, ScanNode, ScanWindow};
 
-/// Windows between two looks at whether the guards can be reached at all.
-const WINDOWS_PER_LOOK: u32 = 8;
+/// Scan windows between two tests whether any guard can be reached at all on the rest of the arc.
+const WINDOWS_PER_REACH_TEST: u32 = 8;
 
-/// Searches the first crossing on `course` from `node` on, at least up to `until` seconds after departure.
+/// Searches an arc for its first crossing from `node` on, at least up to `until` seconds after departure, and charges
+/// the work to the [`budget`].
 ///
 /// The windows are laid from the departure, so the answer does not depend on how a search is
-/// divided into calls. Where a [`budget`] is spent on the way, it means nothing.
+/// divided into calls. Where a budget is spent on the way, the answer means nothing.
 pub fn first_crossing(
     course: &ArcSolution,
     guards: &[Guard],
@@ -36,7 +38,7 @@ pub fn first_crossing(
     outlook
 }
 
-/// The first crossing of an arc, as far as it is searched; what that costs is not counted.
+/// Searches an arc for its first crossing as [`first_crossing`] does, which charges what the scanned time costs.
 fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64) -> NextEvent {
     if let Some(segment) = course.taylor_step() {
         return crossing_on_step(segment, guards, node);
@@ -44,23 +46,24 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64
     if let Some(chatter) = course.chatter() {
         return NextEvent::Ends(chatter.duration);
     }
-    let scan = Scan { course, guards };
+    let scan = ArcScan { course, guards };
     let window = course.flow.window;
-    let watches_position = guards.iter().all(Guard::asks_for_position);
+    let watches_position = guards.iter().all(Guard::is_of_position);
     let mut node = node;
     let mut reached: Option<NodeDerivatives> = None;
-    let mut looked = node.elapsed;
+    let mut tested = node.elapsed;
     while node.elapsed < until {
-        if node.elapsed > looked + f64::from(WINDOWS_PER_LOOK) * window {
+        if node.elapsed > tested + f64::from(WINDOWS_PER_REACH_TEST) * window {
             if scan.guards_are_out_of_reach(&node) {
                 return NextEvent::Never;
             }
-            looked = node.elapsed;
+            tested = node.elapsed;
         }
         let mut ahead = None;
         if watches_position {
-            let doubtful =
-                course.skip_clear_windows(&mut node, until, |window| scan.stays_short(window));
+            let doubtful = course.skip_clear_windows(&mut node, until, |window| {
+                scan.position_guards_stay_below(window)
+            });
             if node.elapsed >= until {
                 break;
             }
@@ -103,22 +106,22 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64
     NextEvent::ClearUntil(node)
 }
 
-/// A scan of an arc for crossings of its guards.
-struct Scan<'a> {
+/// The scan of an arc, window by window, for the first crossing of its guards.
+struct ArcScan<'a> {
     course: &'a ArcSolution,
     guards: &'a [Guard],
 }
 
-impl Scan<'_> {
+impl ArcScan<'_> {
     fn guards_are_out_of_reach(&self, node: &ScanNode) -> bool {
         self.guards
             .iter()
             .all(|guard| guard.is_out_of_reach(self.course, node))
     }
 
-    /// True if all guards, which ask for nothing but the position, stay below zero over a window.
+    /// True if all guards stay below zero over a scan window; they depend on the position alone.
     #[inline(always)]
-    fn stays_short(&self, window: &ScanWindow<'_>) -> bool {
+    fn position_guards_stay_below(&self, window: &ScanWindow<'_>) -> bool {
         let span = window.right.elapsed - window.left.elapsed;
         for guard in self.guards {
             let ends = GuardEnds::of_window(guard, window);
@@ -129,8 +132,8 @@ impl Scan<'_> {
         true
     }
 
-    /// Whether the only guard, which asks for nothing but the position, rises in a window, and where; none if it takes
-    /// more to tell.
+    /// The first crossing in a scan window of the only guard, which depends on the position alone: `Some(None)` if
+    /// there is none, `None` if that takes a closer search.
     fn single_rise_in_window(&self, window: &ScanWindow<'_>) -> Option<Option<FoundCrossing>> {
         let [guard] = self.guards else {
             return None;
@@ -147,8 +150,9 @@ impl Scan<'_> {
         self.single_rise((0, guard), (left, right), ends, (bound, rounding))
     }
 
-    /// The first rise of one guard, which does not ask for the forcing, by its values at the ends and a bound on its fourth
-    /// derivative.
+    /// The first crossing of one guard between two nodes, by its values there and bounds on its fourth derivative and
+    /// its rounding: `Some(None)` if there is none, `None` if more than one rise cannot be ruled out. The guard does
+    /// not depend on the forcing.
     #[inline]
     fn single_rise(
         &self,
@@ -158,8 +162,8 @@ impl Scan<'_> {
         (bound, rounding): (f64, f64),
     ) -> Option<Option<FoundCrossing>> {
         match judge_interval(ends.0, ends.1, bound, rounding) {
-            Verdict::NoRise => Some(None),
-            Verdict::Unknown => None,
+            RiseVerdict::NoRise => Some(None),
+            RiseVerdict::Unknown => None,
             _ => {
                 let (elapsed, position, velocity) =
                     locate_single_rise(self.course, guard, nodes, ends)?;
@@ -173,7 +177,8 @@ impl Scan<'_> {
         }
     }
 
-    /// True if all guards are below zero between two nodes, by the bound that settles most windows.
+    /// True if a bound on the fourth derivatives, which settles most scan windows, proves all guards to be below zero
+    /// between two nodes.
     #[inline(always)]
     fn stays_below(
         &self,
@@ -191,7 +196,7 @@ impl Scan<'_> {
         true
     }
 
-    /// True if the guard cannot rise through zero between two nodes.
+    /// True if bounds on derivatives prove that one guard does not rise through zero between two nodes.
     fn cannot_rise(
         &self,
         guard: &Guard,
@@ -205,8 +210,8 @@ impl Scan<'_> {
         self.guard_stays_below((guard, left), (&ends, bound), (span, bounds))
     }
 
-    /// True if the guard cannot rise through zero within `span` from a node, with its values at both ends and the bound on
-    /// its fourth derivative.
+    /// True if one guard, with its values at both ends of `span` and bounds on its second and fourth derivative, cannot
+    /// rise through zero there.
     #[inline(always)]
     fn guard_stays_below(
         &self,
@@ -221,7 +226,8 @@ impl Scan<'_> {
         }
     }
 
-    /// The first crossing between two nodes, by halving down to the reach of a Taylor polynomial.
+    /// The first crossing between two nodes, by halving the time between them until one Taylor polynomial reaches over
+    /// it.
     #[inline(never)]
     fn search_by_halving(
         &self,
@@ -248,7 +254,8 @@ impl Scan<'_> {
             .or_else(|| self.search_by_halving(&middle, right, bounds))
     }
 
-    /// The first crossing within the reach of a Taylor polynomial. Single rises, as the nodes prove them, need none.
+    /// The first crossing between two nodes that one Taylor polynomial reaches over, expanded only where a guard may
+    /// rise more than once.
     fn search_window(
         &self,
         left: &NodeDerivatives,

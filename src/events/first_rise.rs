@@ -4,10 +4,12 @@
 //! or it is monotone, or its curvature has one sign (then at most one extremum, which is located
 //! and looked at: that is how a graze is told from a near miss). Otherwise it is halved.
 
+use super::guard::Guard;
 use crate::budget;
 use crate::flow::{DEGREE, evaluate};
+use crate::root::bracketed_newton;
 
-/// A polynomial on [0, span] with a bound on its fourth derivative.
+/// A guard as a polynomial on [0, span], with a bound on its fourth derivative and its rounding.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GuardPolynomial<'a> {
     /// Coefficients, constant first.
@@ -18,7 +20,7 @@ pub(super) struct GuardPolynomial<'a> {
     pub rounding: f64,
 }
 
-/// A function at one point: its value and first derivative.
+/// A place on an interval with value and first derivative of a guard there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GuardPoint {
     pub at: f64,
@@ -26,9 +28,9 @@ pub(super) struct GuardPoint {
     pub rate: f64,
 }
 
-/// What is proven about an interval.
+/// What bounds prove of the rises of a guard through zero on an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Verdict {
+pub(super) enum RiseVerdict {
     NoRise,
     /// g is <= 0 at the left and > 0 at the right, and rises through zero once between them.
     Rise,
@@ -39,17 +41,17 @@ pub(super) enum Verdict {
     Unknown,
 }
 
-/// Halvings after which an interval is below the resolution of its ends.
-const DEEPEST: u32 = 60;
+/// Most halvings of an interval in the search for a first rise: then it is below the resolution of its ends.
+const MAX_HALVINGS: u32 = 60;
 
 impl GuardPolynomial<'_> {
-    /// The first s between two points at which g rises from <= 0 to > 0.
+    /// The first place between two points at which the guard rises from <= 0 to > 0; none if it does not.
     pub fn first_rise(&self, left: GuardPoint, right: GuardPoint) -> Option<f64> {
         let (low, high) = self.isolate_rise(left, right, 0)?;
         Some(self.rise_between(low, high))
     }
 
-    /// An interval on which g rises through zero once, the first between two points, by halving.
+    /// Halves an interval until it has the first rise of the guard alone; none if it has no rise.
     fn isolate_rise(
         &self,
         left: GuardPoint,
@@ -57,14 +59,16 @@ impl GuardPolynomial<'_> {
         depth: u32,
     ) -> Option<(GuardPoint, GuardPoint)> {
         match judge_interval(left, right, self.bound, self.rounding) {
-            Verdict::NoRise => None,
-            Verdict::Rise => Some((left, right)),
-            Verdict::RiseFromBottom => bracket_of_rise(self.extremum_between(left, right), right),
-            Verdict::RiseToTop => bracket_of_rise(left, self.extremum_between(left, right)),
-            Verdict::Unknown => {
+            RiseVerdict::NoRise => None,
+            RiseVerdict::Rise => Some((left, right)),
+            RiseVerdict::RiseFromBottom => {
+                bracket_of_rise(self.extremum_between(left, right), right)
+            }
+            RiseVerdict::RiseToTop => bracket_of_rise(left, self.extremum_between(left, right)),
+            RiseVerdict::Unknown => {
                 let middle = 0.5 * (left.at + right.at);
                 let is_smallest = middle <= left.at || middle >= right.at;
-                if depth == DEEPEST || is_smallest || !budget::charge(budget::HALVING) {
+                if depth == MAX_HALVINGS || is_smallest || !budget::charge(budget::HALVING) {
                     return bracket_of_rise(left, right);
                 }
                 let middle = self.point_at(middle);
@@ -74,7 +78,7 @@ impl GuardPolynomial<'_> {
         }
     }
 
-    /// The point between two others at which g' changes its sign, once.
+    /// The one extremum of the guard between two points: the zero of its derivative, by bracketed Newton.
     fn extremum_between(&self, left: GuardPoint, right: GuardPoint) -> GuardPoint {
         let sign = if left.rate > 0.0 { -1.0 } else { 1.0 };
         let derivative = self.derivative_coefficients();
@@ -90,7 +94,7 @@ impl GuardPolynomial<'_> {
         self.point_at(at)
     }
 
-    /// The zero through which g rises between two points.
+    /// The one zero through which the guard rises between two points, by bracketed Newton.
     fn rise_between(&self, low: GuardPoint, high: GuardPoint) -> f64 {
         let mut terms = self.coefficients.iter().enumerate();
         if low.at == 0.0
@@ -117,20 +121,21 @@ impl GuardPolynomial<'_> {
         rates
     }
 
-    /// g and its rate at a place.
+    /// The guard polynomial and its derivative at a place.
     pub fn point_at(&self, at: f64) -> GuardPoint {
         let (value, rate) = evaluate(self.coefficients, at);
         GuardPoint { at, value, rate }
     }
 }
 
-/// What is proven of g between two points, with |g''''| <= `bound`.
+/// What is proven of the rises of a guard between two points, where |g''''| <= `bound` and `rounding` cannot be told
+/// from zero.
 pub(super) fn judge_interval(
     left: GuardPoint,
     right: GuardPoint,
     bound: f64,
     rounding: f64,
-) -> Verdict {
+) -> RiseVerdict {
     let span = right.at - left.at;
     let third = span / 3.0;
     let square = span * span;
@@ -143,11 +148,11 @@ pub(super) fn judge_interval(
     let (low, high) = min_and_max(&bernstein);
     let slack = bound * square * square / 384.0;
     if high + slack < 0.0 || low - slack > 0.0 {
-        return Verdict::NoRise;
+        return RiseVerdict::NoRise;
     }
     let flat = high.max(-low) + slack <= rounding;
     if flat && left.value <= 0.0 && right.value <= 0.0 {
-        return Verdict::NoRise;
+        return RiseVerdict::NoRise;
     }
     if !slack.is_finite() {
         // The motion is about to leave the range of numbers; halving cannot help.
@@ -162,19 +167,19 @@ pub(super) fn judge_interval(
         return rise_by_ends(left, right);
     }
     if high + slack < 0.0 {
-        return Verdict::NoRise;
+        return RiseVerdict::NoRise;
     }
     judge_by_curvature(left, right, slopes, bound * square / 12.0)
 }
 
-/// What the sign of the curvature proves of g between two points, by the slopes of the interpolant and the error of
-/// its curvature.
+/// What the sign of the curvature proves of the rises of a guard between two points, by the slopes of its cubic
+/// interpolant, whose curvature is off by at most `slack`.
 fn judge_by_curvature(
     left: GuardPoint,
     right: GuardPoint,
     slopes: [f64; 3],
     slack: f64,
-) -> Verdict {
+) -> RiseVerdict {
     let half = 0.5 * (right.at - left.at);
     let curvatures = [
         (slopes[1] - slopes[0]) / half,
@@ -186,25 +191,26 @@ fn judge_by_curvature(
         // Convex: beyond the bottom there is at most one zero, and g rises through it.
         let rises = right.rate > 0.0 && right.value > 0.0;
         if rises && left.value <= 0.0 {
-            Verdict::Rise
+            RiseVerdict::Rise
         } else if rises && turns {
-            Verdict::RiseFromBottom
+            RiseVerdict::RiseFromBottom
         } else {
-            Verdict::NoRise
+            RiseVerdict::NoRise
         }
     } else if high + slack < 0.0 {
         // Concave: g rises before the top only.
         if right.value > 0.0 || !turns {
             rise_by_ends(left, right)
         } else {
-            Verdict::RiseToTop
+            RiseVerdict::RiseToTop
         }
     } else {
-        Verdict::Unknown
+        RiseVerdict::Unknown
     }
 }
 
-/// About where g rises through zero between two points, if they tell.
+/// A guess of the place of the first rise between two points, by inverse interpolation or a parabola; none if their
+/// values and slopes do not tell.
 pub(super) fn guess_rise(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     if low.rate > 0.0 {
         zero_by_inverse_hermite(low, high)
@@ -213,7 +219,7 @@ pub(super) fn guess_rise(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     }
 }
 
-/// Where the cubic through both ends, taken as position over value, passes zero.
+/// A guess of a rise: where the inverse cubic Hermite interpolant, place over value, of two points has the value zero.
 fn zero_by_inverse_hermite(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     let rise = high.value - low.value;
     let span = high.at - low.at;
@@ -225,12 +231,13 @@ fn zero_by_inverse_hermite(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     steep.then_some(low.at + share * span)
 }
 
-/// A rise if the values at the ends have opposite signs, where at most one is possible.
-fn rise_by_ends(left: GuardPoint, right: GuardPoint) -> Verdict {
+/// The verdict on a rise where at most one is possible: a rise if the values at the ends have opposite signs, else
+/// none.
+fn rise_by_ends(left: GuardPoint, right: GuardPoint) -> RiseVerdict {
     if bracket_of_rise(left, right).is_some() {
-        Verdict::Rise
+        RiseVerdict::Rise
     } else {
-        Verdict::NoRise
+        RiseVerdict::NoRise
     }
 }
 
@@ -247,7 +254,7 @@ fn min_and_max(values: &[f64]) -> (f64, f64) {
         })
 }
 
-/// The later zero of the parabola through both values with the first slope.
+/// A guess of a rise: the later zero of the parabola through both points with the slope of the first.
 fn zero_of_parabola(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     let span = high.at - low.at;
     let curvature = (high.value - low.value - low.rate * span) / (span * span);
@@ -255,53 +262,16 @@ fn zero_of_parabola(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     (curvature > 0.0).then(|| low.at + (root - low.rate) / (2.0 * curvature))
 }
 
-/// The zero of a function that rises from <= 0 at `low` to > 0 at `high` (position, value): Newton,
-/// kept inside the bracket by bisection. It ends when the next step, foreseen from the last two as
-/// for quadratic convergence, would be lost in rounding.
-fn bracketed_newton(
-    (mut low, f_low): (f64, f64),
-    (mut high, f_high): (f64, f64),
-    guess: Option<f64>,
-    f: impl Fn(f64) -> (f64, f64),
-) -> f64 {
-    let secant = low - f_low * (high - low) / (f_high - f_low);
-    let guess = guess.unwrap_or(secant);
-    let mut at = if guess > low && guess < high {
-        guess
-    } else {
-        0.5 * (low + high)
-    };
-    let mut last_step: Option<f64> = None;
-    loop {
-        let (value, rate) = f(at);
-        if value > 0.0 {
-            high = at;
-        } else {
-            low = at;
-        }
-        let step = value / rate;
-        let next = at - step;
-        let shrinks = step.abs() < 0.5 * last_step.unwrap_or(2.0 * (high - low)).abs();
-        let converges = shrinks && next >= low && next <= high;
-        if converges && let Some(last) = last_step {
-            let foreseen = step.abs() * (step / last) * (step / last);
-            if foreseen <= 0.25 * f64::EPSILON * next.abs() {
-                return next;
-            }
-        }
-        let target = if converges {
-            next
-        } else {
-            // A thousand in a row where the bounces are as small as the least numbers.
-            budget::charge(budget::HALVING);
-            0.5 * (low + high)
-        };
-        if target <= low || target >= high {
-            return target.clamp(low, high);
-        }
-        last_step = converges.then_some(step);
-        at = target;
-    }
+/// The index of the guard that rises first, and when, `rise` telling the time of the first rise of each; of two at once
+/// the one of lower index.
+pub(super) fn earliest_rise(
+    guards: &[Guard],
+    rise: impl Fn(&Guard) -> Option<f64>,
+) -> Option<(usize, f64)> {
+    let rises = guards.iter().map(rise).enumerate();
+    rises
+        .filter_map(|(index, rise)| Some((index, rise?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 #[cfg(test)]

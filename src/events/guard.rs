@@ -2,7 +2,8 @@
 
 use crate::flow::{ArcSolution, DEGREE, ScanNode, TaylorPolynomials};
 
-/// g = `position` x + `velocity` v + `forcing` q - `level`; the event is g rising through zero.
+/// The event function that ends a phase: g = `position` x + `velocity` v + `forcing` q - `level`, when it rises through
+/// zero.
 ///
 /// q is the forcing per mass, p(t) + A cos(angle): the force that is not the phase's own spring or damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +19,7 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// g = 0.
+    /// The guard g = 0, which never rises.
     pub(crate) const NONE: Self = Self {
         position: 0.0,
         velocity: 0.0,
@@ -78,7 +79,7 @@ impl Guard {
         }
     }
 
-    /// The guard -g.
+    /// The guard -g, whose rise is the fall of this one.
     pub(crate) fn negated(&self) -> Self {
         Self {
             position: -self.position,
@@ -88,7 +89,7 @@ impl Guard {
         }
     }
 
-    /// g of positions, velocities and forcings that are counted the other way.
+    /// This guard of positions, velocities and forcings that are counted the other way.
     pub(crate) fn mirrored(&self) -> Self {
         Self {
             level: self.level,
@@ -96,7 +97,7 @@ impl Guard {
         }
     }
 
-    /// The rounding that g may carry at a state under a forcing.
+    /// The rounding that g may carry in a state under a forcing per mass.
     pub(super) fn rounding_at(&self, position: f64, velocity: f64, forcing: f64) -> f64 {
         let terms = [
             self.position * position,
@@ -107,17 +108,17 @@ impl Guard {
         2.0 * f64::EPSILON * terms.iter().map(|term| term.abs()).sum::<f64>() + f64::MIN_POSITIVE
     }
 
-    /// True if neither velocity nor forcing matters.
-    pub(super) fn asks_for_position(&self) -> bool {
+    /// True if g depends on the position alone.
+    pub(super) fn is_of_position(&self) -> bool {
         self.velocity == 0.0 && self.forcing == 0.0
     }
 
-    /// g at a state, for a guard that does not ask for the forcing.
+    /// The value of g in a state, for a guard that does not depend on the forcing.
     pub fn value_at(&self, position: f64, velocity: f64) -> f64 {
         self.position * position + self.velocity * velocity - self.level
     }
 
-    /// True if g stays below zero for ever after `node`.
+    /// True if bounds on position and forcing from `node` to the end of time prove that g stays below zero.
     pub(crate) fn is_out_of_reach(&self, course: &ArcSolution, node: &ScanNode) -> bool {
         if self.velocity != 0.0 {
             return false;
@@ -136,7 +137,7 @@ impl Guard {
             < self.level
     }
 
-    /// Taylor coefficients of g about the expansion point.
+    /// Taylor coefficients of g about the instant of these polynomials of position and forcing.
     pub(crate) fn taylor_coefficients(&self, taylor: &TaylorPolynomials) -> [f64; DEGREE + 1] {
         let (x, q) = (&taylor.position, &taylor.forcing);
         let mut g: [f64; DEGREE + 1] =
@@ -149,15 +150,4 @@ impl Guard {
         g[0] -= self.level;
         g
     }
-}
-
-/// Which of the guards rises first, by the time of the rise of each, and when; of two at once the first.
-pub(super) fn earliest_rise(
-    guards: &[Guard],
-    rise: impl Fn(&Guard) -> Option<f64>,
-) -> Option<(usize, f64)> {
-    let rises = guards.iter().map(rise).enumerate();
-    rises
-        .filter_map(|(index, rise)| Some((index, rise?)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -7,19 +7,20 @@
 mod first_crossing;
 mod first_rise;
 mod guard;
+mod guard_ends;
 mod node_derivatives;
 mod single_rise;
 mod step_crossing;
 
 pub use first_crossing::first_crossing;
 pub use guard::Guard;
-pub(crate) use node_derivatives::is_clear_near_start;
+pub(crate) use node_derivatives::is_clear_by_start_derivatives;
 
 use serde::{Deserialize, Serialize};
 
 use crate::flow::ScanNode;
 
-/// A crossing found on a course.
+/// A crossing found on an arc: when, of which guard, and in which state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FoundCrossing {
     /// Time since departure in s.
@@ -32,7 +33,7 @@ pub struct FoundCrossing {
     pub velocity: f64,
 }
 
-/// What is known of a course's first crossing.
+/// What a search has shown of the first crossing on an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum NextEvent {
     /// This crossing is the first.

@@ -8,13 +8,14 @@ use super::guard::Guard;
 use super::node_derivatives::NodeDerivatives;
 use crate::flow::{ArcSolution, ScanNode};
 
-/// Share of a flow's reach over which a polynomial of degree 5 is exact.
+/// Share of the reach of a linear law (see [`LinearLaw`](crate::flow::LinearLaw)) over which a polynomial of degree 5
+/// is exact to rounding.
 const SHORT_STEP_SHARE: f64 = 1.0 / 512.0;
-/// Most states that are evaluated before one is close enough.
+/// Most states that are evaluated before one is close enough to a single rise.
 const MAX_EVALUATIONS: usize = 4;
 
-/// Time since departure, position and velocity where `guard`, which does not ask for the forcing, rises through zero
-/// between `left` and `right`, where it rises once at most; none if it takes more to tell.
+/// Time since departure, position and velocity where a guard rises through zero between two nodes, where it rises once
+/// at most; none if the full search is needed. The guard does not depend on the forcing.
 pub(super) fn locate_single_rise(
     course: &ArcSolution,
     guard: &Guard,
@@ -63,8 +64,8 @@ pub(super) fn locate_single_rise(
     None
 }
 
-/// A state beside the rise: soon after the departure as what has changed since, so that what is small against
-/// the position keeps its digits.
+/// A state close to a single rise, with the guard as a series about it: soon after the departure as a change since
+/// then, so that what is small against the position keeps its digits.
 struct StateNearRise {
     near: NodeDerivatives,
     /// The guard there.
@@ -76,7 +77,7 @@ struct StateNearRise {
 }
 
 impl StateNearRise {
-    /// The state `at` seconds after a start.
+    /// The state `at` seconds after `start`, that of the left node.
     fn new(course: &ArcSolution, guard: &Guard, start: f64, at: f64) -> Self {
         if start == 0.0
             && let Some((node, change)) = course.node_near_start(at)
@@ -103,8 +104,8 @@ impl StateNearRise {
     }
 }
 
-/// The zero next to 0 through which the series rises, by reverting it and, where that is not exact, one step of
-/// Newton's method that is.
+/// The zero next to 0 through which the series of a guard rises, by reversion of the series, and one step of Newton's
+/// method where that is not exact; none if that does not settle it.
 fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
     let inverse = 1.0 / c[1];
     let [a, b, d] = [c[2], c[3], c[4]].map(|c| c * inverse);
@@ -127,8 +128,8 @@ fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
 /// Relative size of a term of a series that is lost in rounding.
 const ROUNDING: f64 = f64::EPSILON / 16.0;
 
-/// Newton's method from `at` to a zero through which the series rises, until a next step, foreseen from the
-/// last two as for quadratic convergence, would be below `grain`.
+/// The zero near `at` through which the series of a guard rises, by Newton's method until the next step, foreseen from
+/// the last two as for quadratic convergence, is below `grain`; none if it does not converge.
 fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
     let mut last = f64::INFINITY;
     for _ in 0..MAX_NEWTON_STEPS {
@@ -150,7 +151,7 @@ fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
 /// Most steps of Newton's method.
 const MAX_NEWTON_STEPS: usize = 8;
 
-/// Value and first derivative of a polynomial of degree 5.
+/// Value and first derivative at `s` of the series of a guard or a position, of degree 5.
 #[inline]
 fn value_and_rate(c: &[f64; 6], s: f64) -> (f64, f64) {
     let square = s * s;

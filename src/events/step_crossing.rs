@@ -1,12 +1,12 @@
 //! The first crossing on one Taylor step.
 
-use super::first_rise::GuardPolynomial;
-use super::guard::{Guard, earliest_rise};
+use super::first_rise::{GuardPolynomial, earliest_rise};
+use super::guard::Guard;
 use super::{FoundCrossing, NextEvent};
 use crate::flow::{DEGREE, ScanNode, TaylorStep, value};
 
-/// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
-/// the coefficients of the polynomial, which is the motion to round-off.
+/// The first crossing from `node` to the end of a Taylor step, by the series of each guard, whose coefficients give the
+/// bound on the fourth derivative.
 pub(super) fn crossing_on_step(
     segment: &TaylorStep,
     guards: &[Guard],
@@ -20,7 +20,7 @@ pub(super) fn crossing_on_step(
         return NextEvent::Unbounded(node);
     }
     let rise = |guard: &Guard| {
-        if guard.asks_for_position() && segment.stays_short(guard.position, guard.level, to) {
+        if guard.is_of_position() && segment.stays_short(guard.position, guard.level, to) {
             return None;
         }
         let coefficients =
@@ -49,7 +49,8 @@ pub(super) fn crossing_on_step(
     }
 }
 
-/// True if g < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
+/// True if the series of a guard along a Taylor step is below zero throughout [0, span], as its tangent and the sizes
+/// of all other terms show.
 fn series_stays_below(coefficients: &[f64; DEGREE + 1], span: f64) -> bool {
     let mut others = coefficients.map(f64::abs);
     (others[0], others[1]) = (0.0, 0.0);
@@ -57,7 +58,7 @@ fn series_stays_below(coefficients: &[f64; DEGREE + 1], span: f64) -> bool {
     tangent + value(&others, span) < 0.0
 }
 
-/// Bound on |g''''| over [0, span].
+/// Bound on the fourth derivative of a guard's series along a Taylor step over [0, span].
 fn fourth_derivative_bound(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
     let falling = |n: usize| (n * (n - 1) * (n - 2) * (n - 3)) as f64;
     coefficients
@@ -68,7 +69,7 @@ fn fourth_derivative_bound(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
         .fold(0.0, |sum, (n, c)| sum * span + falling(n) * c.abs())
 }
 
-/// Rounding that g may carry on [0, span].
+/// Rounding that a guard's series along a Taylor step may carry on [0, span].
 fn series_rounding(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
     let majorant = coefficients.map(f64::abs);
     f64::EPSILON * value(&majorant, span) + f64::MIN_POSITIVE

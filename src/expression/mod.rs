@@ -4,13 +4,13 @@ mod operations;
 mod parser;
 
 use operations::Instruction;
-pub use operations::{Differentiated, chained};
+pub use operations::{Differentiated, chain_rule_product};
 use parser::Parser;
 
 /// Most characters of an expression.
 const MAX_LENGTH: usize = 1000;
 
-/// An expression as the steps of a stack machine.
+/// An expression of named values, as the instructions of a stack machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
     steps: Vec<Instruction>,
@@ -18,7 +18,7 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Reads an expression.
+    /// The expression that a text states.
     ///
     /// # Errors
     /// What is wrong where, in words.
@@ -30,7 +30,7 @@ impl Expression {
         Ok(Self { steps, names })
     }
 
-    /// The expression that is a number.
+    /// The expression that is one number, without names.
     pub(crate) fn constant(value: f64) -> Self {
         Self {
             steps: vec![Instruction::Number(value)],
@@ -38,12 +38,12 @@ impl Expression {
         }
     }
 
-    /// The names in it, each once.
+    /// The names in the expression, each once, in the order of the values that [`Expression::eval`] takes.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The value of the expression, and its derivatives by the named values.
+    /// The value of the expression where its names have these values, and its derivatives by them.
     pub fn eval(&self, values: &[f64]) -> Differentiated {
         let mut stack: Vec<Differentiated> = Vec::new();
         let constant = |value| Differentiated {

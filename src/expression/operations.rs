@@ -1,6 +1,6 @@
 //! The operations of an expression, with the derivatives of each.
 
-/// A value with its derivatives.
+/// The value of an expression with its derivatives by the named values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Differentiated {
     /// The value.
@@ -9,7 +9,7 @@ pub struct Differentiated {
     pub by: Vec<f64>,
 }
 
-/// A step of a stack machine.
+/// An instruction of the stack machine that evaluates an expression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Instruction {
     Number(f64),
@@ -19,7 +19,7 @@ pub enum Instruction {
     Binary(Binary),
 }
 
-/// What is computed of one value.
+/// An operation on one value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unary {
     Minus,
@@ -29,7 +29,7 @@ pub enum Unary {
     Sqrt,
 }
 
-/// What is computed of two values.
+/// An operation on two values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Binary {
     Plus,
@@ -54,7 +54,11 @@ impl Unary {
         };
         Differentiated {
             value,
-            by: of.by.iter().map(|own| chained(by, *own)).collect(),
+            by: of
+                .by
+                .iter()
+                .map(|own| chain_rule_product(by, *own))
+                .collect(),
         }
     }
 }
@@ -73,13 +77,18 @@ impl Binary {
             Self::Minus => (x - y, 1.0, -1.0),
             Self::Times => (x * y, y, x),
             Self::Over => (x / y, y.recip(), -x / (y * y)),
-            Self::Power => (x.powf(y), chained(x.powf(y - 1.0), y), x.powf(y) * x.ln()),
+            Self::Power => (
+                x.powf(y),
+                chain_rule_product(x.powf(y - 1.0), y),
+                x.powf(y) * x.ln(),
+            ),
             Self::Max => pick(x >= y),
             Self::Min => pick(x <= y),
         };
         let pairs = first.by.iter().zip(&second.by);
-        let by =
-            pairs.map(|(first, second)| chained(by_first, *first) + chained(by_second, *second));
+        let by = pairs.map(|(first, second)| {
+            chain_rule_product(by_first, *first) + chain_rule_product(by_second, *second)
+        });
         Differentiated {
             value,
             by: by.collect(),
@@ -87,7 +96,7 @@ impl Binary {
     }
 }
 
-/// A product of derivatives; 0 if the inner one is, whatever the outer.
-pub fn chained(outer: f64, inner: f64) -> f64 {
+/// The derivative of an operation times that of its operand; 0 if the latter is, whatever the former.
+pub fn chain_rule_product(outer: f64, inner: f64) -> f64 {
     if inner == 0.0 { 0.0 } else { outer * inner }
 }

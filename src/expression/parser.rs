@@ -10,7 +10,7 @@
 
 use super::operations::{Binary, Instruction, Unary};
 
-/// The functions that an expression may call.
+/// The names of the functions that an expression may call, each with its instruction.
 const FUNCTIONS: [(&str, Instruction); 6] = [
     ("abs", Instruction::Unary(Unary::Abs)),
     ("exp", Instruction::Unary(Unary::Exp)),
@@ -20,7 +20,7 @@ const FUNCTIONS: [(&str, Instruction); 6] = [
     ("sqrt", Instruction::Unary(Unary::Sqrt)),
 ];
 
-/// Reads an expression from left to right.
+/// The parser of an expression, from left to right by recursive descent.
 pub struct Parser<'a> {
     rest: &'a str,
     steps: Vec<Instruction>,
@@ -51,14 +51,14 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes a sign, if it is one of these, and the space behind it.
+    /// Takes one of these signs, if it stands next in the text, and the space behind it.
     fn take_sign(&mut self, signs: &[char]) -> Option<char> {
         let sign = self.rest.chars().next().filter(|it| signs.contains(it))?;
         self.take_bytes(sign.len_utf8());
         Some(sign)
     }
 
-    /// Takes so many bytes and the space behind them.
+    /// Takes so many bytes of the text and the space behind them.
     fn take_bytes(&mut self, bytes: usize) -> &'a str {
         let (taken, rest) = self.rest.split_at(bytes);
         self.rest = rest.trim_start();
@@ -187,7 +187,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes a number, if one stands here.
+    /// Takes a number, if one stands next in the text.
     fn parse_number(&mut self) -> Result<Option<f64>, String> {
         let is_start = |it: char| it.is_ascii_digit() || it == '.';
         if !self.rest.starts_with(is_start) {

@@ -9,7 +9,7 @@ use super::observer::Arc;
 use super::start::Start;
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
-use crate::events::{NextEvent, is_clear_near_start};
+use crate::events::{NextEvent, is_clear_by_start_derivatives};
 use crate::flow::{ArcSolution, Chatter, Departure, DriveAngle, FinePosition, Polynomial};
 use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, StopEnergy, Surface};
 
@@ -128,7 +128,7 @@ impl Motion {
         horizon <= self.course.flow.window
             && self.now == self.start
             && matches!(self.outlook, NextEvent::ClearUntil(_))
-            && is_clear_near_start(&self.course, &self.phases[phase].guards, horizon)
+            && is_clear_by_start_derivatives(&self.course, &self.phases[phase].guards, horizon)
     }
 
     /// The clock of its drive.

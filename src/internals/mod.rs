@@ -6,7 +6,7 @@ pub mod scenes;
 pub use crate::budget;
 pub use crate::error::{did_you_mean, plain_number, rpm_value_hint};
 pub use crate::events::{Guard, NextEvent, first_crossing};
-pub use crate::expression::{Differentiated, Expression, chained};
+pub use crate::expression::{Differentiated, Expression, chain_rule_product};
 pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw};
 pub use crate::integrator::{
     Evaluations, MAX_RESTITUTION, Motion, PhaseTracker, WorkShares, work, work_shares,

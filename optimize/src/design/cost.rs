@@ -3,7 +3,7 @@
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
-use softstop::internals::{Differentiated, Expression, chained};
+use softstop::internals::{Differentiated, Expression, chain_rule_product};
 use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{CycleMetrics, Orbit};
@@ -125,7 +125,7 @@ impl Cost {
         for ((term, unit), outer) in self.0.terms.iter().zip(outer) {
             let inner = term.by(slopes, orbit, &rates)?;
             for (total, inner) in total.iter_mut().zip(inner) {
-                *total += chained(outer, inner / unit);
+                *total += chain_rule_product(outer, inner / unit);
             }
         }
         Some(total)
