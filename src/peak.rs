@@ -6,18 +6,11 @@ use std::f64::consts::TAU;
 const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 /// Steps between samples of a function in a period of its fastest oscillation.
 const SAMPLES_PER_OSCILLATION: f64 = 24.0;
-/// Fewest steps between samples, however short the time.
-const MIN_SAMPLES: f64 = 6.0;
-/// Most steps between samples, however long the time.
-const MAX_SAMPLES: f64 = 4096.0;
-/// Width to which the time of a peak is narrowed, as a share of the step between samples: its value, being flat there, is
-/// known to rounding then.
-const PEAK_WIDTH: f64 = 1e-8;
 
 /// The largest value between two times of a function that oscillates no faster than with `rate` in rad/s.
 pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
     let steps = (SAMPLES_PER_OSCILLATION * rate * (to - from) / TAU)
-        .clamp(MIN_SAMPLES, MAX_SAMPLES)
+        .clamp(6.0, 4096.0)
         .ceil();
     let at = |sample: f64| from + (to - from) * (sample / steps);
     let all: Vec<f64> = (0..=steps as u32)
@@ -28,7 +21,8 @@ pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f
     let tops = (0..all.len()).filter(|&sample| all[sample] >= before(sample).max(after(sample)));
     let tops = tops.map(|sample| {
         let ends = [sample as f64 - 1.0, sample as f64 + 1.0].map(|end| at(end.clamp(0.0, steps)));
-        let (_, top) = highest_point(ends[0], ends[1], PEAK_WIDTH * (at(1.0) - from), &value);
+        // The value is flat at the peak, and known to rounding with this width of its place.
+        let (_, top) = highest_point(ends[0], ends[1], 1e-8 * (at(1.0) - from), &value);
         top.max(all[sample])
     });
     tops.fold(f64::NEG_INFINITY, f64::max)

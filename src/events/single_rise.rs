@@ -111,22 +111,21 @@ fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
     let [a, b, d] = [c[2], c[3], c[4]].map(|c| c * inverse);
     let s = -c[0] * inverse;
     let (second, third) = (2.0 * a * a - b, 5.0 * a * (b - a * a) - d);
+    // What a term of this relative size adds is lost in rounding.
+    let lost = f64::EPSILON / 16.0;
     let size = (a * s)
         .abs()
         .max((b * s * s).abs().max((d * s * s * s).abs()));
-    if !(c[1] > 0.0 && size.powi(8) <= ROUNDING) {
+    if !(c[1] > 0.0 && size.powi(8) <= lost) {
         return None;
     }
     let rest = s - s * s * (a - s * (second + s * third));
-    if size.powi(4) <= ROUNDING {
+    if size.powi(4) <= lost {
         return Some(rest);
     }
     let (value, rate) = value_and_rate(c, rest);
     Some(rest - value / rate)
 }
-
-/// Relative size of a term of a series that is lost in rounding.
-const ROUNDING: f64 = f64::EPSILON / 16.0;
 
 /// The zero near `at` through which the series of a guard rises, by Newton's method until the next step, foreseen from
 /// the last two as for quadratic convergence, is below `grain`; none if it does not converge.

@@ -20,7 +20,9 @@ pub(super) fn crossing_on_step(
         return NextEvent::Unbounded(node);
     }
     let rise = |guard: &Guard| {
-        if guard.is_of_position() && segment.stays_short(guard.position, guard.level, to) {
+        if guard.is_of_position()
+            && segment.position_guard_stays_below(guard.position, guard.level, to)
+        {
             return None;
         }
         let coefficients =

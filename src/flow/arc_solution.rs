@@ -5,14 +5,14 @@ use std::sync::Arc;
 use nalgebra::Vector2;
 
 use super::departure::ScanNode;
-use super::linear_law::LARGEST_LOSS;
+use super::linear_law::MAX_DIGIT_LOSS;
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 use super::taylor::linear_forcing_series;
 use super::zero_state_responses::ZeroStateResponses;
 use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorPolynomials, TaylorStep};
 
-/// The exact motion that follows from a departure.
+/// The exact motion of one arc under one law, from its departure on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArcSolution {
     /// The flow it follows.
@@ -22,7 +22,7 @@ pub struct ArcSolution {
     pub(super) form: Form,
 }
 
-/// How states are evaluated; those of a linear law beyond the reach of one Taylor polynomial.
+/// How an [`ArcSolution`] evaluates its states.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
     /// The particular solution plus the free deviation from it at departure.
@@ -61,7 +61,7 @@ impl Form {
 }
 
 impl ArcSolution {
-    /// The motion of `flow` from `departure`; under a forcing of degree 2 or higher, one step of it.
+    /// The motion of `flow` from `departure`; under a forcing of degree 2 or higher, its first Taylor step.
     pub fn new(flow: &LinearLaw, departure: Departure) -> Self {
         Self::with_form(flow, departure, Form::new(flow, &departure))
     }
@@ -81,13 +81,14 @@ impl ArcSolution {
         }
     }
 
-    /// The next Taylor step of `flow`, where rounding took `low` from the position.
+    /// The next Taylor step of `flow`, from a departure whose position lacks the rounding `low`.
     pub(crate) fn next_step(flow: &LinearLaw, departure: Departure, low: f64) -> Self {
         let segment = TaylorStep::of_linear_law(flow, &departure, low);
         Self::with_form(flow, departure, Form::TaylorStep(Arc::new(segment)))
     }
 
-    /// Replaces this motion by one step of `flow` together with a power law, from `deflection` m beyond its face.
+    /// Replaces this motion by one Taylor step of `flow` together with a power law, from `deflection` m beyond its
+    /// face.
     pub(crate) fn restart_nonlinear(
         &mut self,
         flow: &LinearLaw,
@@ -95,7 +96,7 @@ impl ArcSolution {
         departure: Departure,
         deflection: f64,
     ) {
-        let segment = TaylorStep::of_contact(flow, hertz, &departure, deflection);
+        let segment = TaylorStep::under_power_law(flow, hertz, &departure, deflection);
         if let Form::TaylorStep(before) = &mut self.form
             && let Some(place) = Arc::get_mut(before)
         {
@@ -107,12 +108,12 @@ impl ArcSolution {
         self.departure = departure;
     }
 
-    /// The last bounces on a rigid stop at the departure's position.
+    /// The arc of the last bounces on a rigid stop at the departure's position, summed as a geometric series.
     pub(crate) fn chattering(flow: &LinearLaw, departure: Departure, chatter: Chatter) -> Self {
         Self::with_form(flow, departure, Form::Chatter(chatter))
     }
 
-    /// The Taylor step that the motion is followed in, if it is.
+    /// The Taylor step that this motion is; none if it has another form.
     pub(crate) fn taylor_step(&self) -> Option<&TaylorStep> {
         match &self.form {
             Form::TaylorStep(segment) => Some(segment),
@@ -120,12 +121,12 @@ impl ArcSolution {
         }
     }
 
-    /// Whether it is the last bounces on a rigid stop, summed.
+    /// True if this is the arc of the last bounces on a rigid stop, summed as a geometric series.
     pub fn is_chattering(&self) -> bool {
         self.chatter().is_some()
     }
 
-    /// The last bounces on a rigid stop, if it is those, summed.
+    /// The sum of the last bounces that this motion is; none if it has another form.
     pub(crate) fn chatter(&self) -> Option<&Chatter> {
         match &self.form {
             Form::Chatter(chatter) => Some(chatter),
@@ -133,7 +134,8 @@ impl ArcSolution {
         }
     }
 
-    /// A mass held at the departure's position while the drive turns; under a forcing of degree 2 or higher, for one step.
+    /// The arc of a mass held at the departure's position while the drive turns; under a forcing of degree 2 or higher,
+    /// for one Taylor step.
     pub fn held(flow: &LinearLaw, departure: Departure) -> Self {
         let form = if departure.forcing.is_linear() {
             Form::Held
@@ -143,17 +145,17 @@ impl ArcSolution {
         Self::with_form(flow, departure, form)
     }
 
-    /// True if a state anywhere costs no more than a few elementary functions.
+    /// True if a state at any time costs no more than a few elementary functions.
     pub(crate) fn is_closed_form(&self) -> bool {
         matches!(self.form, Form::Particular { .. })
     }
 
-    /// True if it is a series, which ends at its reach.
+    /// True if this is a Taylor step, which ends at its reach.
     pub fn is_series(&self) -> bool {
         matches!(self.form, Form::TaylorStep(_))
     }
 
-    /// True if nothing moves.
+    /// True if the mass stands still on this arc.
     pub fn is_held(&self) -> bool {
         match &self.form {
             Form::Held => true,
@@ -162,7 +164,7 @@ impl ArcSolution {
         }
     }
 
-    /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive stands at `drive`.
+    /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive angle is `drive`.
     pub fn state_at(&self, elapsed: f64, drive: DriveAngle) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
@@ -215,13 +217,13 @@ impl ArcSolution {
         (state.x, state.y)
     }
 
-    /// Value and rate of a linear forcing per mass, `elapsed` seconds after departure.
+    /// Value in m/s^2 and rate of the forcing per mass without the drive, if linear, `elapsed` seconds after departure.
     pub(crate) fn linear_forcing_at(&self, elapsed: f64) -> (f64, f64) {
         let forcing = &self.departure.forcing;
         (forcing.value() + forcing.rate() * elapsed, forcing.rate())
     }
 
-    /// Taylor polynomials about a node.
+    /// Taylor polynomials of this motion about a scan node.
     pub(crate) fn expand(&self, node: &ScanNode) -> TaylorPolynomials {
         let forcing =
             linear_forcing_series(&self.flow, node.drive, self.linear_forcing_at(node.elapsed));
@@ -235,7 +237,7 @@ impl ArcSolution {
         }
     }
 
-    /// True if it is sure never to leave the range of floating-point numbers.
+    /// True if this motion is sure never to leave the range of floating-point numbers.
     pub(crate) fn is_bounded(&self) -> bool {
         match self.form {
             Form::Particular {
@@ -244,14 +246,14 @@ impl ArcSolution {
             } => {
                 let steady = of.offset.abs() + of.cosine.abs() + of.sine.abs();
                 let size = steady + free.x.abs() + free.y.abs();
-                of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < MODEST
+                of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < 1e100
             }
             Form::Held | Form::Chatter(_) => true,
             Form::Responses | Form::TaylorStep(_) => false,
         }
     }
 
-    /// Bounds on the position from `node` to the end of time (infinite where it may grow).
+    /// Bounds in m on the position from `node` to the end of time, infinite where it may grow.
     pub(crate) fn position_range(&self, node: &ScanNode) -> (f64, f64) {
         match self.form {
             Form::Held => (node.position, node.position),
@@ -267,7 +269,8 @@ impl ArcSolution {
         }
     }
 
-    /// Bounds on the external force per mass, c + r t, together with the drive, to the end of time: infinite unless r = 0.
+    /// Bounds in m/s^2 on the forcing per mass, drive included, to the end of time: infinite if the external force
+    /// changes.
     pub(crate) fn forcing_range(&self) -> (f64, f64) {
         let forcing = &self.departure.forcing;
         if forcing.rate() == 0.0 {
@@ -277,7 +280,7 @@ impl ArcSolution {
         }
     }
 
-    /// The forcing per mass in m/s^2, `elapsed` seconds after departure.
+    /// The forcing per mass in m/s^2, drive included, `elapsed` seconds after departure.
     pub(crate) fn forcing_at(&self, elapsed: f64) -> f64 {
         if let Form::TaylorStep(segment) = &self.form {
             return segment.forcing_at(segment.sigma_after(elapsed));
@@ -285,17 +288,14 @@ impl ArcSolution {
         self.linear_forcing_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
     }
 
-    /// The drive `elapsed` seconds after departure.
+    /// The drive angle `elapsed` seconds after departure.
     pub(super) fn drive_at(&self, elapsed: f64) -> DriveAngle {
         let turn = DriveAngle::at(self.flow.frequency * elapsed);
         self.departure.drive.turned(turn)
     }
 }
 
-/// A size that is far from the range of floating-point numbers, whatever it is multiplied with.
-const MODEST: f64 = 1e100;
-
-/// An interval, widened by more than the rounding of its ends.
+/// The interval about `centre`, widened by more than the rounding of its ends.
 fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
     let slack = 1e-12 * (centre.abs() + radius);
     (centre - radius - slack, centre + radius + slack)
@@ -304,9 +304,9 @@ fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
 /// True if the closed form about the static deflection keeps its digits: that deflection does not dwarf the motion.
 fn closed_form_is_accurate(flow: &LinearLaw, from: &Departure) -> bool {
     let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
-    let stiff = w * w <= LARGEST_LOSS * b;
+    let stiff = w * w <= MAX_DIGIT_LOSS * b;
     let (constant, ramp) = (from.forcing.value(), from.forcing.rate());
     let at_rest = constant == 0.0 && ramp == 0.0;
-    let small = from.position.abs().max(from.velocity.abs() / w) * LARGEST_LOSS;
+    let small = from.position.abs().max(from.velocity.abs() / w) * MAX_DIGIT_LOSS;
     at_rest || stiff || (ramp == 0.0 && constant.abs() <= small * b)
 }

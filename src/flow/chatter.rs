@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Polynomial;
 
-/// A geometric series of bounces.
+/// The last bounces on a rigid stop, infinitely many in a finite time, as a geometric series.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Chatter {
     /// Speed in m/s with which it begins, negative on a stop below.
@@ -29,16 +29,29 @@ pub(crate) struct Chatter {
     ratio: f64,
 }
 
-/// The longest tail, in drive periods: longer ones are followed bounce by bounce.
-const LONGEST: f64 = 1.0 / (1u64 << 26) as f64;
-/// Height in roundings below which a bounce under dry friction is too rough to be followed.
-const ROUGH: f64 = (1u64 << 17) as f64;
-/// Height in roundings below which what a bounce loses is itself lost in them.
-const FINEST: f64 = (1u64 << 8) as f64;
-/// Largest relative change of the accelerations that a sum is taken over.
-const STEADY: f64 = 1.0 / (1u64 << 10) as f64;
+/// Limits below which the last bounces are summed in place of being followed one by one.
+struct SummationLimits {
+    /// Longest duration of the sum, in drive periods.
+    duration: f64,
+    /// Height of the first bounce, in roundings of its position, below which it is too rough to be followed where
+    /// another law holds on the way back.
+    rough_height: f64,
+    /// Height of the first bounce, in roundings of its position, below which what a bounce loses is lost in them.
+    lost_height: f64,
+    /// Largest relative change of the accelerations during the sum.
+    change: f64,
+}
 
-/// What presses a mass onto a rigid stop, per unit of mass.
+impl SummationLimits {
+    const DEFAULT: Self = Self {
+        duration: 1.0 / (1u64 << 26) as f64,
+        rough_height: (1u64 << 17) as f64,
+        lost_height: (1u64 << 8) as f64,
+        change: 1.0 / (1u64 << 10) as f64,
+    };
+}
+
+/// What presses a bouncing mass onto a rigid stop, per unit of mass.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PressingForces {
     /// Accelerations towards the stop on the way out and back, in m/s^2.
@@ -58,17 +71,17 @@ pub(crate) struct PressingForces {
 }
 
 impl PressingForces {
-    /// Bound in m/s^2 on what the forcing changes by within `duration`.
+    /// Bound in m/s^2 on what the forcing of a bouncing mass changes by within `duration`.
     fn forcing_change(&self, duration: f64) -> f64 {
         (self.drive_rate + self.forcing.largest_rate(duration)) * duration
     }
 }
 
 impl Chatter {
-    /// The bounces that follow once a mass has left a stop of the given restitution with `speed`, if
-    /// nothing but their sum can be told any more.
+    /// The sum of the bounces that follow once a mass has left a rigid stop with `speed`; none unless they are so low
+    /// or so brief that following them one by one tells no more.
     pub fn from_speed(speed: f64, restitution: f64, by: &PressingForces) -> Option<Self> {
-        let (out, back) = by.accelerations;
+        let (limits, (out, back)) = (SummationLimits::DEFAULT, by.accelerations);
         if !(speed > 0.0 && out > 0.0 && back > 0.0) {
             return None;
         }
@@ -88,19 +101,19 @@ impl Chatter {
         let sum = Some(series(ratio)).filter(|_| ratio < 1.0);
         let exact = |sum: &Self| {
             let close = 0.25 * f64::EPSILON * by.period * weakest;
-            sum.duration <= LONGEST * by.period && change(sum) * sum.duration <= close
+            sum.duration <= limits.duration * by.period && change(sum) * sum.duration <= close
         };
         let low = |roundings: f64| by.grain.is_some_and(|grain| height <= roundings * grain);
-        let rough = |sum: &Self| low(ROUGH) && change(sum) <= STEADY * weakest;
+        let rough = |sum: &Self| low(limits.rough_height) && change(sum) <= limits.change * weakest;
         // What is lost in rounding: a series that the forcing outlasts, or else a last bounce.
         let lost = || {
-            let steady = |sum: &Self| by.forcing_change(sum.duration) <= STEADY * weakest;
-            low(FINEST).then(|| sum.filter(steady).unwrap_or(series(0.0)))
+            let steady = |sum: &Self| by.forcing_change(sum.duration) <= limits.change * weakest;
+            low(limits.lost_height).then(|| sum.filter(steady).unwrap_or(series(0.0)))
         };
         sum.filter(|sum| exact(sum) || rough(sum)).or_else(lost)
     }
 
-    /// These bounces on a stop above, by 1, or below, by -1.
+    /// This chatter on a stop above, by 1, or below, by -1.
     pub fn on_side(self, side: f64) -> Self {
         let (out, back) = self.accelerations;
         Self {
@@ -110,7 +123,7 @@ impl Chatter {
         }
     }
 
-    /// Position in m, counted from the stop, and velocity in m/s, `elapsed` seconds after the first departure.
+    /// Position in m, counted from the stop, and velocity in m/s, `elapsed` seconds after the first bounce has begun.
     pub fn state_after(&self, elapsed: f64) -> (f64, f64) {
         let left = 1.0 - elapsed / self.duration;
         if left <= 0.0 {

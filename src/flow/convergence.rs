@@ -1,57 +1,63 @@
 //! How far a truncated power series holds to rounding, by the sizes of its coefficients.
 
-use super::series::Series;
+use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, RECIPROCALS};
 
-/// Binary logarithm of what the last coefficients may amount to, relative to the first: 1/64 of rounding.
+/// Binary logarithm of what the last terms of a series may amount to, relative to the first: 1/64 of rounding.
 pub(super) const TRUNCATION: f64 = -58.0;
 
-/// The truncation bound for a sphere, where the terms left out sum to an eighth of rounding.
-const OF_SPHERE: f64 = -54.0;
-
-/// The reach of a series: where its terms from the last one on are below rounding of its first ones, judged by the
-/// whole upper half, since by symmetry many coefficients may vanish.
+/// The reach of a series: the argument up to which its last terms are below the rounding of its first ones. It is
+/// judged by the whole upper half, since by symmetry many coefficients may vanish.
 pub(super) fn convergence_reach(series: &Series) -> f64 {
     reach_judged_from(TRUNCATION, series, DEGREE.div_ceil(2))
 }
 
-/// The reach of a series of which no more than every other coefficient vanishes.
+/// The reach of a series, judged by its last coefficients alone, of which no more than every other one vanishes.
 pub(super) fn dense_convergence_reach(series: &Series) -> f64 {
-    reach_judged_from(TRUNCATION, series, LAST)
+    reach_judged_from(TRUNCATION, series, FIRST_JUDGED)
 }
 
-/// The reach of the series of the velocity on a sphere, of which at least every fifth coefficient does not vanish.
+/// The reach of the series of the velocity under the law of a sphere, of which at least every fifth coefficient does
+/// not vanish; the terms left out sum to an eighth of rounding.
 pub(super) fn sphere_convergence_reach(series: &Series) -> f64 {
-    reach_judged_from(OF_SPHERE, series, LAST)
+    reach_judged_from(-54.0, series, FIRST_JUDGED)
 }
 
-/// First of the last coefficients, which are judged where few vanish.
-const LAST: usize = DEGREE - 5;
+/// Order of the first of the last coefficients by which the reach of a series is judged where few of them vanish.
+const FIRST_JUDGED: usize = DEGREE - 5;
 
-/// The reach of a series with this bound, judged by its coefficients from `lower` on.
+/// The reach of a series whose coefficients from order `lower` on may amount to 2^`truncation` of its first.
 fn reach_judged_from(truncation: f64, series: &Series, lower: usize) -> f64 {
     reach_below_margin(series, lower, |j| truncation * RECIPROCALS[DEGREE - j])
 }
 
-/// Up to where the first terms of a series are larger than all others.
-pub(super) fn first_span(series: &Series) -> f64 {
-    reach_below_margin(series, first_measure(series) + FIRST, |_| 0.0)
+/// The argument up to which the leading terms of a series are larger than all others.
+pub(super) fn leading_convergence_reach(series: &Series) -> f64 {
+    reach_below_margin(
+        series,
+        leading_coefficient(series) + LEADING_COEFFICIENTS,
+        |_| 0.0,
+    )
 }
 
-/// Number of first coefficients that the others are measured against.
-const FIRST: usize = 3;
+/// Number of leading coefficients that the others of a series are measured against.
+const LEADING_COEFFICIENTS: usize = 3;
 
-/// The first coefficient to measure against: the very first one, unless the series begins with many zeros.
-fn first_measure(series: &Series) -> usize {
+/// The order of the leading coefficient of a series: 0, unless it begins with many zeros.
+fn leading_coefficient(series: &Series) -> usize {
     let zeros = series.iter().take_while(|c| **c == 0.0).count();
-    if zeros < FIRST { 0 } else { zeros }
+    if zeros < LEADING_COEFFICIENTS {
+        0
+    } else {
+        zeros
+    }
 }
 
-/// Where the terms from `lower` on are still below one of the first, the `j`-th, times the binary power `margin`(j)
-/// for each further order.
+/// The argument up to which every term of a series from order `lower` on is below one of the leading terms: below the
+/// `j`-th times 2^`margin(j)` for each further order.
 fn reach_below_margin(series: &Series, lower: usize, margin: impl Fn(usize) -> f64) -> f64 {
-    let leading = first_measure(series);
-    let lower = lower.max(leading + FIRST);
+    let leading = leading_coefficient(series);
+    let lower = lower.max(leading + LEADING_COEFFICIENTS);
     if lower > DEGREE {
         return f64::INFINITY;
     }
@@ -72,9 +78,24 @@ fn reach_below_margin(series: &Series, lower: usize, margin: impl Fn(usize) -> f
     reach.exp2()
 }
 
-/// The binary logarithm of a coefficient's size, at most a tenth too small; far below all others for zero.
+/// The binary logarithm of the size of a coefficient, at most a tenth too small; far below all others for zero.
 fn binary_logarithm(coefficient: f64) -> f64 {
     const ONE: i64 = 1.0f64.to_bits() as i64;
     let bits = coefficient.abs().to_bits() as i64;
     (bits - ONE) as f64 * (1.0 / (1u64 << 52) as f64)
+}
+
+/// The argument up to which the first term left out of a series, `left_out` t^`order`, is below the rounding of one of
+/// its lower terms.
+pub(super) fn reach_below_rounding(series: &Series, left_out: f64, order: i32) -> f64 {
+    if left_out == 0.0 || series == &ZERO {
+        return f64::INFINITY;
+    }
+    let size = left_out.log2();
+    let reach = |(j, coefficient): (usize, &f64)| {
+        (coefficient.abs().log2() - size + TRUNCATION) / f64::from(order - j as i32)
+    };
+    let lower = series[..DEGREE.div_ceil(2)].iter().enumerate();
+    // Comparisons pass over what is not a number: zero against zero.
+    lower.map(reach).fold(f64::NEG_INFINITY, f64::max).exp2()
 }

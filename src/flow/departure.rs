@@ -1,10 +1,11 @@
-//! Where an arc departs from, a state on it (node), and the angle of the drive there.
+//! Where an arc departs from, and a state on it (scan node).
 
 use serde::{Deserialize, Serialize};
 
-use super::Polynomial;
+use super::drive_angle::DriveAngle;
+use super::polynomial::Polynomial;
 
-/// The state that an arc starts from.
+/// What an arc starts from: state, drive angle and forcing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
     /// Position in m.
@@ -36,7 +37,7 @@ impl Departure {
     }
 }
 
-/// A motion's state at one time after departure.
+/// A state on an arc at one of the times between which a scan for crossings proceeds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ScanNode {
     /// Time since departure in s.
@@ -51,31 +52,4 @@ pub struct ScanNode {
     /// Scan windows are counted from here, so that their times do not drift.
     pub(super) origin: f64,
     pub(super) windows: u32,
-}
-
-/// Cosine and sine of the drive angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct DriveAngle {
-    /// The cosine, in phase with the force.
-    pub cos: f64,
-    /// The sine.
-    pub sin: f64,
-}
-
-impl DriveAngle {
-    /// The drive at an angle in rad.
-    #[inline]
-    pub fn at(angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
-        Self { cos, sin }
-    }
-
-    /// The drive turned on by another angle.
-    #[inline]
-    pub(super) fn turned(self, by: Self) -> Self {
-        Self {
-            cos: self.cos * by.cos - self.sin * by.sin,
-            sin: self.sin * by.cos + self.cos * by.sin,
-        }
-    }
 }

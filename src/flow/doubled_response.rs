@@ -9,22 +9,26 @@ use super::departure::Departure;
 use super::modes::Modes;
 use super::parameter_response::{ParameterResponse, StateAndSupply};
 
-/// The response to a start with position 1, to one with velocity 1, and from rest to the forces 1, cos(w t) and sin(w
-/// t): position y, velocity y', real and imaginary part of the integral of y' e^(i w t); below them the response to
-/// the force y.
+/// The response of a linear law at one time. Columns: to a start with position 1, to one with velocity 1, and from rest
+/// to the forces 1, cos(w t) and sin(w t). Rows: position y, velocity y', real and imaginary part of the integral of y'
+/// e^(i w t); below them the response to the force y.
 type DoubledResponse = SMatrix<f64, 8, 5>;
 
-/// Terms of the series: (1/8)^n / n! falls below 1e-20 at n = 12.
+/// Terms of the series before the first doubling, up to (fastest rate) x (time) = 1/8: (1/8)^n / n! falls below 1e-20
+/// at n = 12.
 const TERMS: usize = 12;
-/// Largest (fastest rate) x (time) that they have to bridge.
-const REACH: f64 = 0.125;
 
-/// Coefficients of a power series in units of the time.
+/// Coefficients of a response as a power series in units of the time.
 type ResponseSeries = [f64; TERMS];
 
 impl LinearLaw {
-    /// The answers of a motion from a departure under a constant forcing.
-    pub(super) fn response(&self, from: &Departure, elapsed: f64) -> ParameterResponse {
+    /// The response of this law, from a departure under a constant forcing, to changes of its start, its coefficients
+    /// and its drive, after `elapsed` seconds.
+    pub(super) fn parameter_response_by_doubling(
+        &self,
+        from: &Departure,
+        elapsed: f64,
+    ) -> ParameterResponse {
         let (modes, w) = (&self.modes, self.frequency);
         let found = self.doubled_response(elapsed);
         let Departure {
@@ -68,15 +72,15 @@ impl LinearLaw {
         }
     }
 
-    /// The responses after a time, by doubling from a time that is short for the law and the drive.
+    /// The responses of this law after `elapsed` seconds, by doubling from a time that is short for law and drive.
     fn doubled_response(&self, elapsed: f64) -> DoubledResponse {
         let (modes, w) = (&self.modes, self.frequency);
         let rate = modes.fastest_rate().max(w);
-        let doublings = (rate * elapsed / REACH).log2().ceil().clamp(0.0, 1000.0) as i32;
+        let doublings = (rate * elapsed / 0.125).log2().ceil().clamp(0.0, 1000.0) as i32;
         let mut span = elapsed * 0.5f64.powi(doublings);
-        let mut found = sum_series(modes, w, span);
+        let mut found = response_series(modes, w, span);
         for _ in 0..doublings {
-            found = double_time(&found, w * span);
+            found = doubled_time(&found, w * span);
             span *= 2.0;
             let free = modes.transition(span);
             found.fixed_view_mut::<2, 2>(0, 0).copy_from(&free);
@@ -85,9 +89,9 @@ impl LinearLaw {
     }
 }
 
-/// From a time to twice that time, in which the drive turns on by 2 `turn`: the state reached goes on freely, while the
-/// forces, turned on, begin again.
-fn double_time(once: &DoubledResponse, turn: f64) -> DoubledResponse {
+/// The responses after twice the time, in half of which the drive turns by `turn` rad: the state reached goes on
+/// freely, while the forces, turned on, begin again.
+fn doubled_time(once: &DoubledResponse, turn: f64) -> DoubledResponse {
     let (sin, cos) = turn.sin_cos();
     let free: Matrix4x2<f64> = once.fixed_view::<4, 2>(0, 0).into_owned();
     let [constant, cosine, sine] = [2, 3, 4].map(|column| once.column(column).into_owned());
@@ -114,8 +118,8 @@ fn double_time(once: &DoubledResponse, turn: f64) -> DoubledResponse {
     both
 }
 
-/// The responses after a short time, by series in units of it.
-fn sum_series(modes: &Modes, w: f64, time: f64) -> DoubledResponse {
+/// The responses after a time that is short for law and drive, by power series.
+fn response_series(modes: &Modes, w: f64, time: f64) -> DoubledResponse {
     let mut wave = [[0.0; TERMS]; 2];
     let mut term = 1.0;
     for n in 0..TERMS {

@@ -2,13 +2,13 @@
 
 use nalgebra::Matrix2;
 
-use super::departure::DriveAngle;
+use super::drive_angle::DriveAngle;
 use super::modes::Modes;
 
-/// Largest loss of digits (as a factor) that the particular-solution form may bring.
-pub(super) const LARGEST_LOSS: f64 = 64.0;
+/// Largest factor by which a particular solution may exceed the motion: so much accuracy its cancellation costs.
+pub(super) const MAX_DIGIT_LOSS: f64 = 64.0;
 
-/// One linear law under the harmonic drive, per unit of mass.
+/// One linear equation of motion under the harmonic drive, per unit of mass, with what can be computed of it once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearLaw {
     /// The free motion.
@@ -34,8 +34,8 @@ pub struct LinearLaw {
 }
 
 impl LinearLaw {
-    /// The flow of m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ..., all SI, with
-    /// `mass` > 0, `damping` >= 0, `frequency` > 0.
+    /// The law m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ..., all SI, with `mass` > 0, `damping` >=
+    /// 0, `frequency` > 0.
     pub fn new(mass: f64, damping: f64, stiffness: f64, amplitude: f64, frequency: f64) -> Self {
         let modes = Modes::new(0.5 * damping / mass, stiffness / mass);
         Self::of_modes(modes, amplitude / mass, frequency)
@@ -46,7 +46,7 @@ impl LinearLaw {
         Self::of_modes(self.modes, amplitude, frequency)
     }
 
-    /// The law with this free motion under a drive of this amplitude per mass and frequency.
+    /// The law with these modes of free motion under a drive of this amplitude per mass and this frequency.
     fn of_modes(modes: Modes, amplitude: f64, frequency: f64) -> Self {
         let window = 1.0 / frequency.max(modes.slow_rate());
         let reach = 1.0 / frequency.max(modes.fastest_rate());
@@ -61,7 +61,8 @@ impl LinearLaw {
             amplitude,
             frequency,
             steady: is_well_conditioned(&modes, impedance, frequency).then_some(response),
-            late: slowest_decay(&modes).map(|slow| (response, LIFETIMES / slow)),
+            // After 60 lifetimes nothing of a mode is left beside a motion 10^10 times smaller.
+            late: slowest_decay(&modes).map(|slow| (response, 60.0 / slow)),
             window,
             long_window: 1.0 / frequency,
             window_bounds: modes.solution_bounds(window),
@@ -76,7 +77,7 @@ impl LinearLaw {
         self.steady
     }
 
-    /// State transition d(x, v)(elapsed) / d(x, v)(0).
+    /// The matrix d(x, v)(elapsed) / d(x, v)(0) of the free motion.
     pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
         self.modes.transition(elapsed)
     }
@@ -92,12 +93,12 @@ impl LinearLaw {
     }
 }
 
-/// True if the steady state A / (b - w^2 + 2 i a w), or the static deflection, does not dwarf the motion that it has to
-/// describe.
+/// True if the particular solution of a linear law does not dwarf the motion that it is part of: the steady state A /
+/// (b - w^2 + 2 i a w), and the static deflection.
 fn is_well_conditioned(modes: &Modes, impedance: f64, w: f64) -> bool {
     let (a, b) = (modes.decay, modes.stiffness);
-    let resonant = impedance * LARGEST_LOSS < b.abs().max(w * w);
-    let limp = b.abs() * LARGEST_LOSS < 4.0 * a * a || b == 0.0;
+    let resonant = impedance * MAX_DIGIT_LOSS < b.abs().max(w * w);
+    let limp = b.abs() * MAX_DIGIT_LOSS < 4.0 * a * a || b == 0.0;
     !resonant && !limp
 }
 
@@ -106,6 +107,3 @@ fn slowest_decay(modes: &Modes) -> Option<f64> {
     let (slow, _) = modes.decay_rates();
     (modes.stiffness > 0.0 && slow > 0.0).then_some(slow)
 }
-
-/// Lifetimes of a mode after which nothing of it is left beside a motion 10^10 times smaller.
-const LIFETIMES: f64 = 60.0;

@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix2;
 
-/// Fundamental solutions of x'' + 2 a x' + b x = 0 for a >= 0 and any real b: C(0) = 1, C'(0) = 0; S(0) = 0, S'(0) = 1.
+/// The free motion of a linear law: fundamental solutions of x'' + 2 a x' + b x = 0 for a >= 0 and any real b: C(0) =
+/// 1, C'(0) = 0; S(0) = 0, S'(0) = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Modes {
     /// a in 1/s.
@@ -12,7 +13,7 @@ pub struct Modes {
     kind: ModeKind,
 }
 
-/// The roots of the characteristic equation.
+/// The roots of the characteristic equation: complex, real, or one of the limits between.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ModeKind {
     /// b > a^2: roots -a +- i `omega`.

@@ -5,20 +5,20 @@
 
 use super::{Departure, LinearLaw};
 
-/// Shares of the reach of a flow, each with the terms beyond which all others are below rounding of the third. From
-/// the fourth on they come in pairs.
+/// Shares of the reach of a linear law, each with the number of Taylor terms beyond which all others are below the
+/// rounding of the third. From the fourth on they come in pairs.
 const TERMS: [(f64, usize); 4] = [
     (1.0 / 256.0, 9),
     (1.0 / 32.0, 11),
     (1.0 / 8.0, 13),
     (1.0 / 4.0, 15),
 ];
-/// Terms up to half of the reach.
-const MOST_TERMS: usize = 17;
+/// Number of Taylor terms up to half of the reach of a linear law.
+const MAX_TERMS: usize = 17;
 
-/// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2, from n = 1 on, for two terms.
-const FACTORS: [[[f64; 3]; 2]; (MOST_TERMS - 3) / 2] = {
-    let mut table = [[[0.0; 3]; 2]; (MOST_TERMS - 3) / 2];
+/// Factors of the Taylor recurrence, 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2 from n = 1 on, for two terms at a time.
+const FACTORS: [[[f64; 3]; 2]; (MAX_TERMS - 3) / 2] = {
+    let mut table = [[[0.0; 3]; 2]; (MAX_TERMS - 3) / 2];
     let mut index = 0;
     while index < 2 * table.len() {
         let (first, second) = ((index + 2) as f64, (index + 3) as f64);
@@ -28,14 +28,15 @@ const FACTORS: [[[f64; 3]; 2]; (MOST_TERMS - 3) / 2] = {
     table
 };
 
-/// What position and velocity have changed by under a linear forcing, up to half a reach after the departure.
+/// The changes of position and velocity since a departure under a linear forcing, by Taylor series, for `elapsed` up to
+/// half the reach of the law.
 pub(super) fn change_near_start(flow: &LinearLaw, from: &Departure, elapsed: f64) -> (f64, f64) {
     if elapsed == 0.0 {
         return (0.0, 0.0);
     }
     let share = elapsed / flow.reach;
     let needed = TERMS.iter().find(|(most, _)| share <= *most);
-    let terms = needed.map_or(MOST_TERMS, |(_, terms)| *terms);
+    let terms = needed.map_or(MAX_TERMS, |(_, terms)| *terms);
     let (angle, square) = (flow.frequency * elapsed, elapsed * elapsed);
     let damping = flow.damping() * elapsed;
     let stiffness = flow.modes.stiffness * square;

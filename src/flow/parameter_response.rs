@@ -7,12 +7,13 @@ use super::arc_solution::{ArcSolution, Form};
 use super::gauss::gauss_nodes;
 use super::series::{Series, ZERO, convolve, product, value};
 use super::taylor_step::TaylorStep;
-use super::variation::Linearized;
+use super::variation::VariationalEquation;
 
-/// Changes of position in m, of velocity in m/s, and of the integral of velocity times cos(drive angle), in m.
+/// Changes at one time of an arc: of position in m, of velocity in m/s, and of the integral of velocity times cos(drive
+/// angle) in m, which is proportional to the work that the drive supplies.
 pub(crate) type StateAndSupply = Vector3<f64>;
 
-/// A force per mass along an arc by which a change of its law or its drive acts.
+/// The forces per mass along an arc whose sum a change of its law or its drive amounts to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum ForceBasis {
     /// 1.
@@ -35,10 +36,10 @@ pub(crate) enum ForceBasis {
     Steepness,
 }
 
-/// The amount of each [`ForceBasis`].
+/// The coefficient of each force of [`ForceBasis`].
 pub(crate) type ForceCoefficients = [f64; 9];
 
-/// The response of an arc at one time.
+/// The response of an arc at one time to changes of its start, its law and its drive.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ParameterResponse {
     /// To changes of position and velocity at departure.
@@ -50,7 +51,7 @@ pub(crate) struct ParameterResponse {
 }
 
 impl ParameterResponse {
-    /// The response to a change at departure and to forces together.
+    /// The response to a change at departure together with a change of the law or the drive.
     pub fn combined(&self, start: &StateAndSupply, forces: &ForceCoefficients) -> StateAndSupply {
         let carried = self.free * start.xy() + StateAndSupply::new(0.0, 0.0, start.z);
         let pairs = self.forced.iter().zip(forces);
@@ -58,13 +59,18 @@ impl ParameterResponse {
     }
 }
 
-/// Halvings of a step towards the face, where d^n ln d is not smooth.
-const HALVINGS: i32 = 16;
+/// Halvings of the panels of a quadrature towards the face, where d^n ln d is not smooth.
+const FACE_HALVINGS: i32 = 16;
 
 impl ArcSolution {
-    /// The response `elapsed` seconds after departure, that to d^n ln d only if `logarithm` is asked for. None where
-    /// it is not known: in bounces summed, on the slow manifold, under a force that is not constant.
-    pub(crate) fn response(&self, elapsed: f64, logarithm: bool) -> Option<ParameterResponse> {
+    /// The response, `elapsed` seconds after departure, to changes of start, law and drive; that to d^n ln d only if
+    /// `logarithm` asks for it. None where it is not known: in bounces summed, on the slow manifold, under a force that
+    /// is not constant.
+    pub(crate) fn parameter_response(
+        &self,
+        elapsed: f64,
+        logarithm: bool,
+    ) -> Option<ParameterResponse> {
         match &self.form {
             Form::Held => Some(ParameterResponse {
                 free: Matrix3x2::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
@@ -72,21 +78,34 @@ impl ArcSolution {
                 travel: (0.0, 0.0),
             }),
             Form::Particular { .. } | Form::Responses if self.departure.forcing.rate() == 0.0 => {
-                Some(self.flow.response(&self.departure, elapsed))
+                Some(
+                    self.flow
+                        .parameter_response_by_doubling(&self.departure, elapsed),
+                )
             }
             Form::TaylorStep(segment)
                 if segment.slow_manifold.is_none() && segment.hertz.stiffness > 0.0 =>
             {
-                Some(self.response_of_step(segment, segment.sigma_after(elapsed), logarithm))
+                Some(self.parameter_response_of_step(
+                    segment,
+                    segment.sigma_after(elapsed),
+                    logarithm,
+                ))
             }
             _ => None,
         }
     }
 
-    /// The response along a Taylor step. With Y the transition from the start and J the row of its work, d(end) = (Y,
-    /// J) d(start) + the integral of (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0, f(s))).
-    fn response_of_step(&self, step: &TaylorStep, to: f64, logarithm: bool) -> ParameterResponse {
-        let law = Linearized::along_step(step);
+    /// The parameter response along a Taylor step, up to sigma = `to`. With Y the transition from the start and J the
+    /// row of its work, d(end) = (Y, J) d(start) + the integral of (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0,
+    /// f(s))).
+    fn parameter_response_of_step(
+        &self,
+        step: &TaylorStep,
+        to: f64,
+        logarithm: bool,
+    ) -> ParameterResponse {
+        let law = VariationalEquation::along_step(step);
         let rate = law.rate;
         let (cos, sin) = self.drive_series(&rate);
         let against = product(&rate, &cos);
@@ -113,7 +132,7 @@ impl ArcSolution {
             let time = weight * value(&rate, sigma);
             let work = y[(2, 0)] * back[0] + y[(2, 1)] * back[1];
             let kernel = time * Vector3::new(back[0], back[1], work);
-            let moved = step.place_at(sigma);
+            let moved = step.state_on_step_at(sigma);
             let (depth, velocity) = (moved.deflection, moved.velocity);
             let (cos, sin) = (value(&cos, sigma), value(&sin, sigma));
             let grip = 1.0 + hertz.dissipation * velocity;
@@ -145,7 +164,7 @@ impl ArcSolution {
         }
     }
 
-    /// Cosine and sine of the drive angle as series in sigma.
+    /// Cosine and sine of the drive angle along a Taylor step, as series in sigma, for the parameter response.
     fn drive_series(&self, rate: &Series) -> (Series, Series) {
         let w = self.flow.frequency;
         let (mut cos, mut sin) = (ZERO, ZERO);
@@ -160,14 +179,15 @@ impl ArcSolution {
 }
 
 impl TaylorStep {
-    /// Nodes and weights of Gauss's rule from 0 to `to`; at a face, if asked for, in pieces halved towards both ends.
+    /// Nodes and weights in sigma of the quadrature of a parameter response from 0 to `to`; where the step meets a
+    /// face, if `halved`, in panels halved towards both ends.
     fn quadrature_nodes(&self, to: f64, halved: bool) -> Vec<(f64, f64)> {
         if !halved || self.regularized.is_none() {
             return gauss_nodes(to).to_vec();
         }
         let mut nodes = Vec::new();
-        for level in 1..=HALVINGS {
-            let (from, last) = (0.5f64.powi(level + 1), level == HALVINGS);
+        for level in 1..=FACE_HALVINGS {
+            let (from, last) = (0.5f64.powi(level + 1), level == FACE_HALVINGS);
             let from = if last { 0.0 } else { from };
             for (place, weight) in gauss_nodes(0.5f64.powi(level) - from) {
                 nodes.push((to * (from + place), to * weight));

@@ -15,7 +15,7 @@ pub(super) struct ParticularSolution {
 }
 
 impl ParticularSolution {
-    /// With offset + slope t = (c + r t)/b - 2 a r/b^2.
+    /// The particular solution with offset + slope t = (c + r t)/b - 2 a r/b^2 and this steady state.
     pub fn new(flow: &LinearLaw, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
         let b = flow.modes.stiffness;
         let slope = from.forcing.rate() / b;
@@ -29,7 +29,7 @@ impl ParticularSolution {
         }
     }
 
-    /// Position and velocity.
+    /// Position and velocity of the particular solution.
     #[inline]
     pub fn state_at(&self, elapsed: f64, DriveAngle { cos, sin }: DriveAngle) -> (f64, f64) {
         (

@@ -37,7 +37,7 @@ impl PowerLaw {
         self.side * (position - self.origin)
     }
 
-    /// This law seen on a side: 1 as it is, -1 with positions counted the other way.
+    /// This power law seen on a side: 1 as it is, -1 with positions counted the other way.
     pub(crate) fn on_side(self, side: f64) -> Self {
         Self {
             origin: side * self.origin,
@@ -46,19 +46,19 @@ impl PowerLaw {
         }
     }
 
-    /// 1 + lambda d', not below zero, at a velocity.
+    /// The factor 1 + lambda d' of the contact force, not below zero, at a velocity.
     pub(crate) fn dissipation_factor(&self, velocity: f64) -> f64 {
         (1.0 + self.dissipation * (self.side * velocity)).max(0.0)
     }
 
-    /// Force in N against the direction of the position.
+    /// Contact force in N against the direction of the position.
     pub fn force(&self, position: f64, velocity: f64) -> f64 {
         let depth = self.deflection(position).max(0.0);
         let force = self.stiffness * depth.powf(self.exponent) * self.dissipation_factor(velocity);
         self.side * force
     }
 
-    /// Elastic energy in J, k d^(n+1) / (n+1).
+    /// Elastic energy in J of the contact, k d^(n+1) / (n+1).
     pub fn energy(&self, position: f64) -> f64 {
         let depth = self.deflection(position).max(0.0);
         let raised = self.exponent + 1.0;
@@ -87,13 +87,14 @@ impl PowerLaw {
         (self.side * stiffness, self.side * coupling)
     }
 
-    /// The least m >= 2 for which the power of the m-th root is whole: the root's law is then regular at the face.
+    /// The least m >= 2 for which the power law, written in the m-th root of the deflection, has whole powers: it is
+    /// then regular at the face in regularised time.
     pub(super) fn root_index(&self) -> Option<f64> {
         let is_whole = |m: &f64| (m * self.exponent).fract() == 0.0;
         [2.0, 3.0, 4.0, 5.0].into_iter().find(is_whole)
     }
 
-    /// The factor of d^n (1 + lambda v) in the force per mass, kappa.
+    /// The factor kappa of d^n (1 + lambda v) in the contact force per mass.
     pub(super) fn factor(&self) -> f64 {
         self.stiffness / self.mass
     }

@@ -1,9 +1,9 @@
 //! Taylor steps under a power law in regularised time, at its face, and on a sphere throughout.
 
-use super::convergence::{convergence_reach, first_span, sphere_convergence_reach};
+use super::convergence::{convergence_reach, leading_convergence_reach, sphere_convergence_reach};
 use super::polynomial::HIGHEST_ORDER;
 use super::power_law::PowerLaw;
-use super::power_law_step::linear_span;
+use super::power_law_step::span_without_power_law;
 use super::series::{PowerRecurrence, ReversedSeries, Series, ZERO, convolve, majorant, value};
 use super::sphere::is_sphere;
 use super::taylor::{DEGREE, RECIPROCALS, evaluate};
@@ -11,7 +11,7 @@ use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw, Polynomial};
 
 impl TaylorStep {
-    /// The step in regularised time, by series in sigma of the root of the deflection.
+    /// The Taylor step under a power law in regularised time, by series in sigma of the root of the deflection.
     pub(super) fn in_regularized_time(
         flow: &LinearLaw,
         hertz: &PowerLaw,
@@ -37,7 +37,7 @@ impl TaylorStep {
         if !segment.is_pressed && hertz.stiffness > 0.0 {
             let bounds =
                 [segment.depth, regularized.velocity, regularized.time].map(|s| majorant(&s));
-            segment.reach = linear_span(hertz, segment.reach, |span| {
+            segment.reach = span_without_power_law(hertz, segment.reach, |span| {
                 let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
                 (depth, speed, time)
             });
@@ -45,11 +45,11 @@ impl TaylorStep {
         segment.contact = regularized.last_contact(segment.reach);
         segment.end = value(&regularized.time, segment.contact);
         segment.regularized = Some(regularized);
-        segment.last = segment.place_at(segment.contact);
+        segment.last = segment.state_on_step_at(segment.contact);
         segment
     }
 
-    /// Computes the series of the root of the deflection and of all others in sigma.
+    /// Computes all series of a step in regularised time, that of the root of the deflection among them.
     fn expand_root(
         &mut self,
         flow: &LinearLaw,
@@ -121,8 +121,8 @@ impl TaylorStep {
 }
 
 impl RegularizedTime {
-    /// Sigma up to which time stays within `limit`, and no power of a force that is not linear outgrows what the motion
-    /// begins with.
+    /// Regularised time sigma up to which time stays within `limit`, and no power of a force that is not linear
+    /// outgrows what the motion begins with.
     fn reach_within(&self, limit: f64, is_linear: bool) -> f64 {
         // With s = s0 + v sigma / m, t is the integral of s^(m - 1).
         let m = self.index;
@@ -136,11 +136,12 @@ impl RegularizedTime {
             return within;
         }
         within
-            .min(first_span(&self.root))
-            .min(first_span(&self.velocity))
+            .min(leading_convergence_reach(&self.root))
+            .min(leading_convergence_reach(&self.velocity))
     }
 
-    /// The last sigma within reach at which the root is not negative. Within one step it passes zero once.
+    /// The last regularised time sigma up to `reach` at which the root of the deflection is not negative. Within one
+    /// step it passes zero once.
     fn last_contact(&self, reach: f64) -> f64 {
         if value(&self.root, reach) >= 0.0 {
             return reach;
@@ -173,12 +174,12 @@ impl RegularizedTime {
     }
 }
 
-/// The part of a force beyond its ramp, and its derivatives, as series in sigma: from one order to the next,
-/// d p^(j) / dsigma = p^(j+1) dt/dsigma.
+/// The part of an external force beyond its linear part, and its derivatives, as series in regularised time sigma: from
+/// one order to the next, d p^(j) / dsigma = p^(j+1) dt/dsigma.
 pub(super) struct ForcingSeries([Series; HIGHEST_ORDER + 1]);
 
 impl ForcingSeries {
-    /// None if there is no such part.
+    /// The series of a force in regularised time; none if the force is linear.
     pub fn new(force: &Polynomial) -> Option<Self> {
         (!force.is_linear()).then(|| {
             let curved = force.with_derivative(0, 0.0).with_derivative(1, 0.0);
@@ -190,7 +191,8 @@ impl ForcingSeries {
         })
     }
 
-    /// The k-th Taylor coefficient in sigma of the force, from those of dt/dsigma below k. Coefficients are computed in order of k.
+    /// The k-th coefficient of the force as a series in regularised time, from those of dt/dsigma below k. It is to be
+    /// called for k = 0, 1, ... in order.
     pub fn coefficient(&mut self, rate: &ReversedSeries, k: usize) -> f64 {
         if let Some(before) = k.checked_sub(1) {
             for j in 0..HIGHEST_ORDER {

@@ -2,13 +2,13 @@
 
 use super::taylor::{DEGREE, RECIPROCALS};
 
-/// Coefficients, constant first.
+/// A truncated power series in the variable sigma of a Taylor step: its coefficients, constant first.
 pub(super) type Series = [f64; DEGREE + 1];
 
 /// The series that vanishes.
 pub(super) const ZERO: Series = [0.0; DEGREE + 1];
 
-/// A series from its last coefficient to its first: products with others then run along both.
+/// A series from its last coefficient to its first, so that a product with another runs along both in memory.
 #[derive(Debug, Clone)]
 pub(super) struct ReversedSeries(Series);
 
@@ -16,14 +16,14 @@ impl ReversedSeries {
     /// The series that vanishes.
     pub const ZERO: Self = Self(ZERO);
 
-    /// A series, reversed.
+    /// The reversed form of a series.
     pub fn from_series(series: &Series) -> Self {
         let mut turned = *series;
         turned.reverse();
         Self(turned)
     }
 
-    /// Sets the k-th coefficient.
+    /// Sets the k-th coefficient of the series.
     #[inline(always)]
     pub fn set_coefficient(&mut self, k: usize, coefficient: f64) {
         self.0[DEGREE - k] = coefficient;
@@ -55,7 +55,7 @@ fn dot_product(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// The k-th coefficient of a product.
+/// The k-th coefficient of the product of two series.
 pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
     let pairs = a[..=k].iter().zip(b[..=k].iter().rev());
     pairs.map(|(a, b)| a * b).sum()
@@ -63,12 +63,12 @@ pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
 
 pub(super) use super::taylor::value;
 
-/// A series with its coefficients made positive: a bound on it.
+/// The series with the sizes of all coefficients: a bound on a series.
 pub(super) fn majorant(series: &Series) -> Series {
     series.map(f64::abs)
 }
 
-/// A bound on a series within `span` without its first two terms.
+/// A bound on what a series is, within `span`, without its first two terms.
 pub(super) fn curved_part(series: &Series, span: f64) -> f64 {
     let square = span * span;
     let (pairs, _) = series.as_chunks::<2>();
@@ -81,7 +81,7 @@ pub(super) fn curved_part(series: &Series, span: f64) -> f64 {
     sums[0] + span * sums[1]
 }
 
-/// A power of a series that is known coefficient by coefficient.
+/// The recurrence by which a power of a series follows coefficient by coefficient.
 #[derive(Debug, Clone)]
 pub(super) enum PowerRecurrence {
     /// The zeroth.
@@ -94,16 +94,14 @@ pub(super) enum PowerRecurrence {
     LeftOut,
 }
 
-/// Largest whole exponent that is built up by products.
-const MOST_PRODUCTS: f64 = 12.0;
-
 impl PowerRecurrence {
-    /// The power of a series that begins with `first` >= 0.
+    /// The recurrence of the power of a series that begins with `first` >= 0; up to an exponent of 12 a whole one is
+    /// built up by products.
     pub fn new(exponent: f64, first: f64) -> Self {
         let start = first.powf(exponent);
         if exponent == 0.0 {
             Self::One
-        } else if exponent.fract() == 0.0 && exponent <= MOST_PRODUCTS {
+        } else if exponent.fract() == 0.0 && exponent <= 12.0 {
             Self::Whole(vec![ZERO; exponent as usize - 1])
         } else if start > f64::MIN_POSITIVE {
             let mut series = ZERO;
@@ -114,7 +112,8 @@ impl PowerRecurrence {
         }
     }
 
-    /// The k-th coefficient, from those of `base`, and reversed in `turned`, up to the k-th. To be asked for in order.
+    /// The k-th coefficient of the power, from those up to the k-th of `base`, given reversed in `turned` as well. It
+    /// is to be called for k = 0, 1, ... in order.
     #[inline]
     pub fn coefficient(&mut self, base: &Series, turned: &ReversedSeries, k: usize) -> f64 {
         match self {

@@ -15,17 +15,15 @@ use super::power_law::PowerLaw;
 use super::series::{Series, convolve, derivative, power_series};
 use super::taylor::DEGREE;
 
-/// Number of coefficients of the series.
+/// Number of coefficients of the series on the slow manifold, the unknowns of Newton's method.
 const ORDER: usize = DEGREE + 1;
-/// Most steps of Newton's method.
-const NEWTON_STEPS: usize = 12;
-/// Lifetimes of a mode within a step after which nothing of it is left.
-const LIFETIMES: f64 = 30.0;
-/// Largest deviation of a start from the slow motion, in roundings.
-const ALLOWED: f64 = 64.0 * f64::EPSILON;
+/// Most steps of Newton's method for the series on the slow manifold.
+const MAX_NEWTON_STEPS: usize = 12;
+/// Lifetimes of a mode within a step on the slow manifold after which nothing of the mode is left.
+const DECAY_LIFETIMES: f64 = 30.0;
 
-/// The equation of motion in contact, d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 + lambda d') = `forcing`, as
-/// series in time.
+/// The equation of motion in contact on the slow manifold, d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 +
+/// lambda d') = `forcing`, whose solution is a series in time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SlowEquation<'a> {
     pub twice_decay: f64,
@@ -35,7 +33,7 @@ pub(super) struct SlowEquation<'a> {
     pub forcing: &'a Series,
 }
 
-/// A motion on the slow manifold, and its derivatives by the start and the forcing.
+/// A motion on the slow manifold as a series in time, with its derivatives by the start and the forcing.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlowManifold {
     /// Deflection in m.
@@ -49,7 +47,8 @@ pub(super) struct SlowManifold {
     pub answer: Series,
 }
 
-/// Derivatives of the force of contact by velocity (damping) and deflection (stiffness) along a motion, and the force.
+/// Derivatives of the contact force by velocity (damping) and by deflection (stiffness) along a motion, and the force
+/// itself, as series in time.
 struct ContactSlopes {
     damping: Series,
     stiffness: Series,
@@ -57,8 +56,8 @@ struct ContactSlopes {
 }
 
 impl SlowEquation<'_> {
-    /// The slow motion through a start (deflection, velocity), if the start lies on one and steps of
-    /// length `span` are long against the modes that die out.
+    /// The motion on the slow manifold through a start (deflection, velocity); none unless the start lies on it and
+    /// steps of length `span` are long against the modes that die out.
     pub fn slow_motion(&self, (d, v): (f64, f64), span: f64) -> Option<SlowManifold> {
         let hertz = self.hertz;
         let press = hertz.factor() * d.powf(hertz.exponent);
@@ -67,17 +66,18 @@ impl SlowEquation<'_> {
         let stiffness = self.stiffness + hertz.exponent * press / d * grip;
         let modes = Modes::new(0.5 * damping, stiffness);
         let (slow, fast) = modes.decay_rates();
-        let decays = slow * span >= LIFETIMES;
+        let decays = slow * span >= DECAY_LIFETIMES;
         // A mode that is remembered must be resolved.
         let span = if decays { span } else { span.min(1.0 / slow) };
-        if fast * span < LIFETIMES {
+        if fast * span < DECAY_LIFETIMES {
             return None;
         }
         let depth = self.solve_series(d, span, decays)?;
-        let tolerance = |value: f64, scale: f64| ALLOWED * (value.abs() + scale);
+        // A start lies on the manifold within 64 roundings.
+        let tolerance = |value: f64, scale: f64| 64.0 * f64::EPSILON * (value.abs() + scale);
         let speed = tolerance(v, (self.forcing[0] / damping).abs());
         let near = (depth[0] - d).abs() <= tolerance(d, 0.0) && (depth[1] - v).abs() <= speed;
-        near.then(|| self.with_derivatives(depth, span, decays))
+        near.then(|| self.manifold_with_derivatives(depth, span, decays))
     }
 
     /// The slopes of the contact force along a motion with this series of its deflection.
@@ -102,16 +102,17 @@ impl SlowEquation<'_> {
         slopes
     }
 
-    /// The series of the deflection, all coefficients together by Newton's method, scaled by powers of `span`. Unless
-    /// the influence of the start decays within the span, its deflection `d` is kept.
+    /// The series of the deflection on the slow manifold, all coefficients together by Newton's method, scaled by
+    /// powers of `span`; none if that does not converge. Unless the influence of the start `decays` within the span,
+    /// its deflection `d` is kept.
     fn solve_series(&self, d: f64, span: f64, decays: bool) -> Option<Series> {
         let mut depth = [0.0; ORDER];
         depth[0] = d;
         let mut last = f64::INFINITY;
-        for _ in 0..NEWTON_STEPS {
+        for _ in 0..MAX_NEWTON_STEPS {
             budget::charge(budget::SLOW_MANIFOLD_STEP);
             let slopes = self.slopes_along(&depth);
-            let matrix = jacobian(&slopes, span, decays);
+            let matrix = residual_jacobian(&slopes, span, decays);
             let residual = self.residual(&depth, &slopes, span, decays);
             let step = matrix.lu().solve(&residual)?;
             let mut size: f64 = 0.0;
@@ -131,8 +132,8 @@ impl SlowEquation<'_> {
         None
     }
 
-    /// The coefficients of the left side of the equation less its right side, scaled by powers of `span`, as the rows
-    /// of [`jacobian`].
+    /// The coefficients of the left side of the slow equation less its right side, scaled by powers of `span`, as the
+    /// rows of [`residual_jacobian`].
     fn residual(
         &self,
         depth: &Series,
@@ -153,10 +154,10 @@ impl SlowEquation<'_> {
         })
     }
 
-    /// The motion with this series, and its derivatives.
-    fn with_derivatives(&self, depth: Series, span: f64, decays: bool) -> SlowManifold {
+    /// The motion on the slow manifold with this series of its deflection, and its derivatives.
+    fn manifold_with_derivatives(&self, depth: Series, span: f64, decays: bool) -> SlowManifold {
         let slopes = self.slopes_along(&depth);
-        let matrix = jacobian(&slopes, span, decays).lu();
+        let matrix = residual_jacobian(&slopes, span, decays).lu();
         let solve = |row: usize| -> Series {
             let mut unit = SVector::<f64, ORDER>::zeros();
             unit[row] = 1.0;
@@ -185,9 +186,13 @@ impl SlowEquation<'_> {
     }
 }
 
-/// Derivative of the residual by the scaled coefficients; unless the influence of the start decays, its first row
-/// keeps the deflection at the start.
-fn jacobian(slopes: &ContactSlopes, span: f64, decays: bool) -> SMatrix<f64, ORDER, ORDER> {
+/// Derivative of the residual of the slow equation by the scaled coefficients of the deflection; unless the influence
+/// of the start `decays`, its first row keeps the deflection at the start.
+fn residual_jacobian(
+    slopes: &ContactSlopes,
+    span: f64,
+    decays: bool,
+) -> SMatrix<f64, ORDER, ORDER> {
     let entry = |k: usize, j: usize| {
         let mut entry = 0.0;
         if j == k + 2 {

@@ -12,13 +12,14 @@ use super::taylor::{DEGREE, RECIPROCALS};
 use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw};
 
-/// True if the law is Hertz's own, n = 3/2, under a constant forcing beside the drive.
+/// True if the contact law is that of Hertz for a sphere, n = 3/2, and the forcing beside the drive is constant.
 pub(super) fn is_sphere(hertz: &PowerLaw, from: &Departure) -> bool {
     hertz.exponent == 1.5 && from.forcing.is_linear() && from.forcing.rate() == 0.0
 }
 
 impl TaylorStep {
-    /// Computes the series in sigma; `GRIPS`: the law dissipates.
+    /// Computes all series of a step under the law of a sphere, in the regularised time sigma; `GRIPS` if the law
+    /// dissipates.
     pub(super) fn expand_sphere<const GRIPS: bool>(
         &mut self,
         flow: &LinearLaw,

@@ -8,7 +8,9 @@
 //!
 //! With w = d^n, d w' = n d' w; the product d' w in it is the one that the dissipation of the power law needs, too.
 
-use super::convergence::{TRUNCATION, dense_convergence_reach, first_span};
+use super::convergence::{
+    dense_convergence_reach, leading_convergence_reach, reach_below_rounding,
+};
 use super::paired_products::Products;
 use super::power_law::PowerLaw;
 use super::series::{Series, ZERO};
@@ -17,7 +19,7 @@ use super::taylor_step::TaylorStep;
 use super::{Departure, LinearLaw};
 
 impl TaylorStep {
-    /// The step of a linear law; `low` is what rounding took from the position before.
+    /// The Taylor step in time of a linear law; `low` is what rounding took from the position before.
     pub fn of_linear_law(flow: &LinearLaw, from: &Departure, low: f64) -> Self {
         let mut segment = Self::linear_in_time(
             flow,
@@ -30,16 +32,16 @@ impl TaylorStep {
         segment
     }
 
-    /// The step of a mass that is held while the forcing changes.
+    /// The Taylor step in time of a mass that is held while the forcing changes.
     pub fn of_held_mass(flow: &LinearLaw, from: &Departure) -> Self {
         let mut segment = Self::without_motion(flow, &PowerLaw::default());
         segment.depth[0] = from.position;
         segment.forcing = forcing_series(flow, from);
-        segment.end_at(flow.reach.min(first_span(&segment.forcing)));
+        segment.end_at(flow.reach.min(leading_convergence_reach(&segment.forcing)));
         segment
     }
 
-    /// The linear law's motion from `start`, in time itself.
+    /// The Taylor step in time of a linear law from the state `start`, not yet ended.
     pub(super) fn linear_in_time(
         flow: &LinearLaw,
         hertz: &PowerLaw,
@@ -57,8 +59,8 @@ impl TaylorStep {
         segment
     }
 
-    /// Time in s over which series in time hold to rounding, and over which no power of the force outgrows what the
-    /// motion begins with: a crossing early in a step would drown in the rounding of its end.
+    /// Time in s over which the series of a step in time hold to rounding, and over which no power of the force
+    /// outgrows what the motion begins with: a crossing early in a step would drown in the rounding of its end.
     pub(super) fn reach_in_time(&self, flow: &LinearLaw, from: &Departure) -> f64 {
         let reach = flow.reach;
         if from.forcing.is_linear() {
@@ -68,8 +70,8 @@ impl TaylorStep {
         let left_out = omitted_term_bound(flow, from);
         let order = (DEGREE + 1) as i32;
         reach
-            .min(first_span(depth))
-            .min(first_span(velocity))
+            .min(leading_convergence_reach(depth))
+            .min(leading_convergence_reach(velocity))
             .min(reach_below_rounding(depth, left_out, order))
             .min(reach_below_rounding(
                 velocity,
@@ -78,8 +80,8 @@ impl TaylorStep {
             ))
     }
 
-    /// The step from a departure beyond the face, by the deflection in m and its n-th power; none so close to the
-    /// face that the coefficients of a fast mass overflow.
+    /// The Taylor step in time under a power law from a departure beyond the face, by the deflection in m and its n-th
+    /// power; none so close to the face that the coefficients of a fast mass overflow.
     pub(super) fn in_time_under_power_law(
         flow: &LinearLaw,
         hertz: &PowerLaw,
@@ -94,12 +96,13 @@ impl TaylorStep {
         if !velocity[DEGREE].is_finite() {
             return None;
         }
-        let ways = WAYS * deflection / from.velocity.abs();
+        // The series hold to a little beyond the face.
+        let ways = 1.25 * deflection / from.velocity.abs();
         segment.end_before(flow.reach.min(ways), from, &velocity);
         Some(segment)
     }
 
-    /// The step under a square law, n = 2, which is regular at the face, too.
+    /// The Taylor step in time under a power law with n = 2, which is regular at the face, too.
     pub(super) fn in_time_under_square_law(
         flow: &LinearLaw,
         hertz: &PowerLaw,
@@ -109,23 +112,29 @@ impl TaylorStep {
         let mut segment = Self::without_motion(flow, hertz);
         segment.forcing = forcing_series(flow, from);
         segment.is_pressed = true;
-        let velocity = segment.expand_square(flow, (deflection, from.velocity));
+        let velocity = segment.expand_square_law(flow, (deflection, from.velocity));
         segment.end_before(flow.reach, from, &velocity);
         segment
     }
 
-    /// Ends the step where its series no longer hold, or at `limit`.
+    /// Ends a step in time where its series no longer hold to rounding, or at `limit` s.
     fn end_before(&mut self, limit: f64, from: &Departure, velocity: &Series) {
         // What is below rounding of the velocity is so of the deflection.
         let mut reach = dense_convergence_reach(velocity).min(limit);
         if !from.forcing.is_linear() {
-            reach = reach.min(first_span(&self.depth)).min(first_span(velocity));
+            reach = reach
+                .min(leading_convergence_reach(&self.depth))
+                .min(leading_convergence_reach(velocity));
         }
         self.end_at(reach);
     }
 
-    /// The series of the deflection where n = 2; that of the velocity is returned.
-    fn expand_square(&mut self, flow: &LinearLaw, (deflection, velocity): (f64, f64)) -> Series {
+    /// Computes the series in time of the deflection under a power law with n = 2, and returns that of the velocity.
+    fn expand_square_law(
+        &mut self,
+        flow: &LinearLaw,
+        (deflection, velocity): (f64, f64),
+    ) -> Series {
         let (kappa, pull) = (self.hertz.factor(), flow.modes.stiffness);
         let grip = kappa * self.hertz.dissipation;
         let mut v = ZERO;
@@ -149,7 +158,7 @@ impl TaylorStep {
         v
     }
 
-    /// The series of the deflection; that of the velocity is returned.
+    /// Computes the series in time of the deflection under a power law, and returns that of the velocity.
     fn expand_power_law(
         &mut self,
         flow: &LinearLaw,
@@ -180,8 +189,8 @@ impl TaylorStep {
     }
 }
 
-/// A bound on the first coefficient of the position that is left out, as far as the curved part of the force
-/// brings it about.
+/// A bound on the first coefficient left out of the series in time of the position, as far as the curved part of the
+/// force brings it about.
 fn omitted_term_bound(flow: &LinearLaw, from: &Departure) -> f64 {
     let rate = flow.modes.fastest_rate();
     let answer = |k: usize| (DEGREE - k) as f64 * rate.powi((DEGREE - 1 - k) as i32);
@@ -189,20 +198,3 @@ fn omitted_term_bound(flow: &LinearLaw, from: &Departure) -> f64 {
     let sum: f64 = derivatives.map(|(k, f)| f.abs() * answer(k)).sum();
     (2..=DEGREE + 1).fold(sum, |sum, n| sum / n as f64)
 }
-
-/// Up to where a term `left_out` t^`order` is below the rounding of one of the lower coefficients' terms.
-fn reach_below_rounding(series: &Series, left_out: f64, order: i32) -> f64 {
-    if left_out == 0.0 || series == &ZERO {
-        return f64::INFINITY;
-    }
-    let size = left_out.log2();
-    let reach = |(j, coefficient): (usize, &f64)| {
-        (coefficient.abs().log2() - size + TRUNCATION) / f64::from(order - j as i32)
-    };
-    let lower = series[..DEGREE.div_ceil(2)].iter().enumerate();
-    // Comparisons pass over what is not a number: zero against zero.
-    lower.map(reach).fold(f64::NEG_INFINITY, f64::max).exp2()
-}
-
-/// Ways to the face that a step may be as long as, at the present speed.
-const WAYS: f64 = 1.25;

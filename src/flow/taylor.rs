@@ -6,7 +6,7 @@ use super::{Departure, DriveAngle, LinearLaw};
 /// under a power law costs least.
 pub(crate) const DEGREE: usize = 25;
 
-/// Coefficients of position and drive about one instant, x(s) = sum c_n s^n.
+/// Taylor polynomials of position and forcing about one instant, x(s) = sum c_n s^n.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TaylorPolynomials {
     /// Position in m/s^n.
@@ -15,7 +15,7 @@ pub(crate) struct TaylorPolynomials {
     pub forcing: [f64; DEGREE + 1],
 }
 
-/// 1/n.
+/// The reciprocals 1/n of whole numbers, as Taylor recurrences divide by them.
 pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
     let mut table = [0.0; DEGREE + 3];
     let mut n = 1;
@@ -27,7 +27,7 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
 };
 
 impl TaylorPolynomials {
-    /// Expands the motion from (x, v) under a forcing.
+    /// The Taylor polynomials of a linear law from the state (x, v), with these coefficients of the forcing per mass.
     pub fn expand(flow: &LinearLaw, (x, v): (f64, f64), forcing: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
@@ -37,7 +37,7 @@ impl TaylorPolynomials {
         taylor
     }
 
-    /// Coefficients of the position from the `first` + 2 before them.
+    /// Computes the Taylor coefficients of the position from order `first` + 2 on.
     fn continue_recurrence(&mut self, flow: &LinearLaw, first: usize) {
         let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         let position = &mut self.position;
@@ -48,14 +48,14 @@ impl TaylorPolynomials {
         }
     }
 
-    /// The polynomials of the same forcing, with the mass held at `position`.
+    /// The Taylor polynomials of the same forcing, with the mass held at `position`.
     pub fn held_at(mut self, position: f64) -> Self {
         self.position = [0.0; DEGREE + 1];
         self.position[0] = position;
         self
     }
 
-    /// This motion where the initial acceleration is known.
+    /// These Taylor polynomials where the initial acceleration is known.
     pub fn with_acceleration(mut self, flow: &LinearLaw, acceleration: f64) -> Self {
         self.position[2] = 0.5 * acceleration;
         self.continue_recurrence(flow, 1);
@@ -81,7 +81,7 @@ impl TaylorPolynomials {
     }
 }
 
-/// Coefficients of the forcing p(t) + A cos(angle + w t) at a departure.
+/// Taylor coefficients of the forcing p(t) + A cos(angle + w t) about a departure.
 pub(super) fn forcing_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE + 1] {
     let (value, rate) = (from.forcing.value(), from.forcing.rate());
     let mut forcing = linear_forcing_series(flow, from.drive, (value, rate));
@@ -94,7 +94,7 @@ pub(super) fn forcing_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE
     forcing
 }
 
-/// Coefficients of the forcing `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
+/// Taylor coefficients of the forcing `constant` + `ramp` t + A cos(angle + w t) from the drive angle (cos, sin).
 pub(super) fn linear_forcing_series(
     flow: &LinearLaw,
     DriveAngle { cos, sin }: DriveAngle,
@@ -114,7 +114,7 @@ pub(super) fn linear_forcing_series(
     forcing
 }
 
-/// Value of a polynomial: Horner on four parts of it, side by side.
+/// Value of a Taylor polynomial at `s`: Horner's rule on four parts of it, side by side.
 #[inline]
 pub(crate) fn value(coefficients: &[f64; DEGREE + 1], s: f64) -> f64 {
     let square = s * s;
@@ -130,13 +130,14 @@ pub(crate) fn value(coefficients: &[f64; DEGREE + 1], s: f64) -> f64 {
     (value[0] + s * value[1]) + square * (value[2] + s * value[3])
 }
 
-/// Value and first derivative of a polynomial.
+/// Value and first derivative of a Taylor polynomial at `s`.
 #[inline]
 pub(crate) fn evaluate(coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
     evaluate_from(coefficients[0], coefficients, s)
 }
 
-/// A polynomial and its derivative, with another constant: Horner on four parts of it, side by side.
+/// Value and first derivative at `s` of a Taylor polynomial whose constant term is `first`: Horner's rule on four parts
+/// of it, side by side.
 #[inline]
 pub(super) fn evaluate_from(first: f64, coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
     let square = s * s;

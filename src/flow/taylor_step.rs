@@ -23,7 +23,7 @@ use super::series::{Series, ZERO, curved_part, derivative, power_series, product
 use super::slow_manifold::SlowManifold;
 use super::taylor::{evaluate, evaluate_from};
 
-/// The motion of one step, as series in sigma: time, or a regularised time.
+/// One Taylor step of a motion: series in sigma, which is time or a regularised time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct TaylorStep {
     /// Deflection in m at departure.
@@ -57,7 +57,7 @@ pub(crate) struct TaylorStep {
     pub(super) is_mirrored: bool,
 }
 
-/// Series of a step in regularised time.
+/// The series of a Taylor step that is made in regularised time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct RegularizedTime {
     /// Which root: m >= 2.
@@ -70,7 +70,7 @@ pub(super) struct RegularizedTime {
     pub time: Series,
 }
 
-/// A state along a step.
+/// A state along a Taylor step, the deflection with its rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct StateOnStep {
     /// Deflection in m.
@@ -81,7 +81,7 @@ pub(super) struct StateOnStep {
     pub velocity: f64,
 }
 
-/// What is known of a position beyond its rounded value: where it counts from a nonlinear face, the deflection; else
+/// What is known of a position beyond its rounded value: the deflection, where it counts from a nonlinear face; else
 /// what rounding took from it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct FinePosition {
@@ -92,7 +92,7 @@ pub(crate) struct FinePosition {
 }
 
 impl TaylorStep {
-    /// A step under this law without a motion yet.
+    /// A Taylor step under these laws, all of whose series are still zero.
     pub(super) fn without_motion(flow: &LinearLaw, hertz: &PowerLaw) -> Self {
         Self {
             hertz: *hertz,
@@ -107,20 +107,20 @@ impl TaylorStep {
     pub(super) fn end_at(&mut self, reach: f64) {
         let reach = f64::from_bits(reach.to_bits() & (u64::MAX << 32));
         (self.reach, self.contact, self.end) = (reach, reach, reach);
-        self.last = self.place_at(reach);
+        self.last = self.state_on_step_at(reach);
     }
 
-    /// -1 if it is mirrored, else 1.
+    /// The sign of positions in the series: -1 if the step is computed with positions counted downwards, else 1.
     pub(super) fn side(&self) -> f64 {
         if self.is_mirrored { -1.0 } else { 1.0 }
     }
 
-    /// True if nothing moves.
+    /// True if the mass stands still all along the step.
     pub fn is_still(&self) -> bool {
         self.regularized.is_none() && self.depth[1..] == ZERO[1..]
     }
 
-    /// The series of the velocity in m/s.
+    /// The series in sigma of the velocity in m/s.
     pub(super) fn velocity_series(&self) -> Series {
         match &self.regularized {
             Some(regularized) => regularized.velocity,
@@ -128,7 +128,7 @@ impl TaylorStep {
         }
     }
 
-    /// The series of the time since departure in s.
+    /// The series in sigma of the time since departure in s.
     pub(super) fn time_in_sigma(&self) -> Series {
         match &self.regularized {
             Some(regularized) => regularized.time,
@@ -140,12 +140,12 @@ impl TaylorStep {
         }
     }
 
-    /// The series of d(time)/d(sigma).
+    /// The series in sigma of d(time)/d(sigma).
     pub(super) fn time_rate_series(&self) -> Series {
         derivative(&self.time_in_sigma())
     }
 
-    /// The series of d^n, where the power law acts.
+    /// The series in sigma of d^n, the n-th power of the deflection, where the power law acts; else zero.
     pub(super) fn powers(&self) -> Series {
         match &self.regularized {
             _ if !self.is_pressed => ZERO,
@@ -157,7 +157,8 @@ impl TaylorStep {
         }
     }
 
-    /// Sigma after a time: Newton's method on a function that grows, kept inside its bracket.
+    /// The sigma that belongs to a time since departure: Newton's method on a function that grows, kept inside its
+    /// bracket.
     pub fn sigma_after(&self, elapsed: f64) -> f64 {
         if elapsed >= self.end {
             return self.contact;
@@ -192,35 +193,35 @@ impl TaylorStep {
         at
     }
 
-    /// Position in m and velocity in m/s after a time.
+    /// Position in m and velocity in m/s at a time since departure.
     pub fn state_after(&self, elapsed: f64) -> (f64, f64) {
-        self.state_of_place(&self.place_after(elapsed))
+        self.rounded_state(&self.state_on_step_after(elapsed))
     }
 
-    /// Position and velocity at sigma.
+    /// Position in m and velocity in m/s at sigma.
     pub fn state_at(&self, sigma: f64) -> (f64, f64) {
-        self.state_of_place(&self.place_at(sigma))
+        self.rounded_state(&self.state_on_step_at(sigma))
     }
 
-    /// Position and velocity where the mass leaves contact, or else where the step ends.
+    /// Position in m and velocity in m/s where the mass leaves contact, or else where the step ends.
     pub fn last_state(&self) -> (f64, f64) {
-        self.state_of_place(&self.last)
+        self.rounded_state(&self.last)
     }
 
-    fn state_of_place(&self, moved: &StateOnStep) -> (f64, f64) {
+    fn rounded_state(&self, moved: &StateOnStep) -> (f64, f64) {
         let (position, velocity) = (self.hertz.origin + moved.deflection, moved.velocity);
         (self.side() * position, self.side() * velocity)
     }
 
-    fn place_after(&self, elapsed: f64) -> StateOnStep {
+    fn state_on_step_after(&self, elapsed: f64) -> StateOnStep {
         if elapsed >= self.end {
             self.last
         } else {
-            self.place_at(self.sigma_after(elapsed))
+            self.state_on_step_at(self.sigma_after(elapsed))
         }
     }
 
-    pub(super) fn place_at(&self, sigma: f64) -> StateOnStep {
+    pub(super) fn state_on_step_at(&self, sigma: f64) -> StateOnStep {
         if let Some(regularized) = &self.regularized {
             return StateOnStep {
                 deflection: value(&regularized.root, sigma).powi(regularized.index as i32),
@@ -240,7 +241,7 @@ impl TaylorStep {
         }
     }
 
-    /// What is known of the start beyond the rounded position.
+    /// What is known of the position at the start of the step beyond its rounded value.
     pub fn fine_start_position(&self) -> FinePosition {
         FinePosition {
             deflection: self.departed,
@@ -248,15 +249,15 @@ impl TaylorStep {
         }
     }
 
-    /// What is known of the position after a time beyond its rounded value.
+    /// What is known of the position at a time since departure beyond its rounded value.
     pub fn fine_position_at(&self, elapsed: f64) -> FinePosition {
         let StateOnStep {
             deflection, low, ..
-        } = self.place_after(elapsed);
+        } = self.state_on_step_after(elapsed);
         FinePosition { deflection, low }
     }
 
-    /// Push per mass in m/s^2 at sigma.
+    /// Forcing per mass in m/s^2 at sigma.
     pub fn forcing_at(&self, sigma: f64) -> f64 {
         self.side() * value(&self.forcing, sigma)
     }
@@ -269,8 +270,9 @@ impl TaylorStep {
         }
     }
 
-    /// True if `position` x - `level` < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
-    pub fn stays_short(&self, position: f64, level: f64, span: f64) -> bool {
+    /// True if a guard of the position alone, `position` x - `level`, stays below zero throughout [0, span] in sigma,
+    /// as its tangent and the sizes of all other terms show.
+    pub fn position_guard_stays_below(&self, position: f64, level: f64, span: f64) -> bool {
         let position = self.side() * position;
         let level = level - position * self.hertz.origin;
         let series = match &self.regularized {

@@ -13,7 +13,7 @@ use super::taylor_step::TaylorStep;
 use super::zero_state_responses::ZeroStateResponses;
 use crate::budget;
 
-/// Derivatives of the state along an arc.
+/// Derivatives of the state at one time of an arc by its departure and by the frequency of the drive.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Transition {
     /// By the state at departure.
@@ -24,7 +24,7 @@ pub(crate) struct Transition {
     pub by_frequency: Option<Vector2<f64>>,
 }
 
-/// A small change of a motion: of position and velocity at departure, and of the constant forcing per mass from there on.
+/// A small change of an arc: of position and velocity at departure, and of the constant forcing per mass from there on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Variation {
     pub position: f64,
@@ -33,8 +33,8 @@ pub(crate) struct Variation {
 }
 
 impl ArcSolution {
-    /// The change of position and velocity, `elapsed` seconds after departure, that a change there brings. A held mass
-    /// stays where it is.
+    /// The change of position and velocity, `elapsed` seconds after departure, by a small change of the arc. A held
+    /// mass stays where it is.
     pub(crate) fn state_variation(&self, elapsed: f64, by: Variation) -> (f64, f64) {
         match &self.form {
             Form::Held | Form::Chatter(_) => (by.position, 0.0),
@@ -57,12 +57,12 @@ impl ArcSolution {
         }
     }
 
-    /// How the state after `elapsed` changes with that at departure and, if that is `since` seconds after the instant at
-    /// which the drive's angle is held, with the drive's frequency.
-    pub(crate) fn transition(&self, elapsed: f64, since: Option<f64>) -> Transition {
+    /// The derivatives of the state `elapsed` seconds after departure by the state there and, if the departure is
+    /// `since` seconds after the instant at which the drive angle is held, by the frequency of the drive.
+    pub(crate) fn state_transition(&self, elapsed: f64, since: Option<f64>) -> Transition {
         if let Form::TaylorStep(step) = &self.form {
-            let force = since.and_then(|since| self.detuning_force(step, since));
-            return step.transition(elapsed, force.as_ref());
+            let force = since.and_then(|since| self.frequency_variation_force(step, since));
+            return step.state_transition(elapsed, force.as_ref());
         }
         let matrix = self.flow.transition(elapsed);
         let by_frequency = match (&self.form, since) {
@@ -82,10 +82,10 @@ impl ArcSolution {
         }
     }
 
-    /// The force -A t sin(angle) per mass and d(time)/d(sigma) along a step under its drive and a constant forcing: by sigma,
-    /// that forcing changes by -A sin(angle) w d(time)/d(sigma). None in slow motion, whose changes are those by a constant
-    /// forcing.
-    fn detuning_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
+    /// The force of the variational equation for the frequency of the drive, -A t sin(angle), per mass and
+    /// d(time)/d(sigma), as a series in sigma along a Taylor step under a constant forcing. None on the slow manifold,
+    /// whose variations are those by a constant forcing, and under a forcing that is not constant.
+    fn frequency_variation_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
         let forcing = &self.departure.forcing;
         if step.slow_manifold.is_some() || !forcing.is_linear() || forcing.rate() != 0.0 {
             return None;
@@ -96,8 +96,8 @@ impl ArcSolution {
         Some(force.map(|coefficient| coefficient / self.flow.frequency))
     }
 
-    /// The change of the work of the forcing per mass up to `elapsed`; `law` is the part of the constant
-    /// forcing that is the phase's own force.
+    /// The change of the work of the forcing per mass, up to `elapsed`, by a small change of the arc; `law` is the part
+    /// of the constant forcing that is the phase's own force.
     pub(crate) fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         match &self.form {
             Form::Held | Form::Chatter(_) => 0.0,
@@ -109,8 +109,8 @@ impl ArcSolution {
         }
     }
 
-    /// The supply variation of a linear law: its work is a quadratic form of the departure, so that a central
-    /// difference of any width is its derivative.
+    /// The variation of the work of the forcing under a linear law: that work is a quadratic form of the departure, so
+    /// that a central difference of any width is its derivative.
     fn supply_variation_of_linear(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         let (from, w) = (self.departure, self.flow.frequency);
         let norm = |x: f64, v: f64, c: f64| x.abs() + v.abs() / w + c.abs() / (w * w);
@@ -138,11 +138,12 @@ impl ArcSolution {
 }
 
 impl TaylorStep {
-    /// How the state changes with that at the start and under a force per mass and d(time)/d(sigma).
-    fn transition(&self, elapsed: f64, force: Option<&Series>) -> Transition {
+    /// The derivatives of the state `elapsed` seconds after the start of this step by the state there, and by a
+    /// parameter that adds `force` per mass and d(time)/d(sigma) to the variational equation.
+    fn state_transition(&self, elapsed: f64, force: Option<&Series>) -> Transition {
         budget::charge(budget::STATE_VARIATIONS);
         let sigma = self.sigma_after(elapsed);
-        let law = Linearized::along_step(self);
+        let law = VariationalEquation::along_step(self);
         let columns = self.variations(&law, force);
         let [first, second, forced] =
             columns.map(|[y, u]| Vector2::new(value(&y, sigma), value(&u, sigma)));
@@ -153,9 +154,9 @@ impl TaylorStep {
         }
     }
 
-    /// The changes of position and velocity as series in sigma.
+    /// The changes of position and velocity, as series in sigma, by a small change of the arc.
     fn state_variation(&self, by: Variation) -> [Series; 2] {
-        let law = Linearized::along_step(self);
+        let law = VariationalEquation::along_step(self);
         let [first, second, forced] = self.variations(&law, Some(&law.rate));
         [0, 1].map(|of| {
             std::array::from_fn(|k| {
@@ -166,9 +167,14 @@ impl TaylorStep {
         })
     }
 
-    /// Position and velocity, as series in sigma, from (1, 0), from (0, 1), and from (0, 0) under a force, if there is one,
-    /// per mass and d(time)/d(sigma): in slow motion a constant forcing.
-    pub(super) fn variations(&self, law: &Linearized, force: Option<&Series>) -> [[Series; 2]; 3] {
+    /// Solutions (position, velocity) of the variational equation along this step, as series in sigma: from (1, 0),
+    /// from (0, 1), and from (0, 0) under a `force` per mass and d(time)/d(sigma), if there is one; on the slow
+    /// manifold under a constant forcing.
+    pub(super) fn variations(
+        &self,
+        law: &VariationalEquation,
+        force: Option<&Series>,
+    ) -> [[Series; 2]; 3] {
         match &self.slow_manifold {
             Some(slow_manifold) => {
                 let echo = slow_manifold
@@ -180,7 +186,8 @@ impl TaylorStep {
         }
     }
 
-    /// The change of the work of the forcing per mass up to `elapsed`, as [`ArcSolution::supply_variation`].
+    /// The change of the work of the forcing per mass along this step, up to `elapsed`, by a small change of the arc;
+    /// `law` is the part of the constant forcing that is the phase's own force.
     fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         let [_, changed] = self.state_variation(by);
         let rate = self.time_rate_series();
@@ -194,13 +201,14 @@ impl TaylorStep {
     }
 }
 
-/// The equation of the change y of the position and the change u of the velocity, by sigma; r = d(time)/d(sigma), d and
-/// v deflection and velocity, 2 a and b linear damping and stiffness, kappa, lambda and n those of the power law:
+/// The variational equation along a Taylor step, for the change y of the position and u of the velocity, by sigma; r =
+/// d(time)/d(sigma), d and v deflection and velocity, 2 a and b linear damping and stiffness, kappa, lambda and n those
+/// of the power law:
 ///
 /// ```text
 /// y' = r u    u' = force - 2 a r u - kappa lambda d^n r u - (b + kappa n d^(n-1) (1 + lambda v)) r y
 /// ```
-pub(super) struct Linearized {
+pub(super) struct VariationalEquation {
     /// r.
     pub rate: Series,
     /// 2 a.
@@ -211,7 +219,7 @@ pub(super) struct Linearized {
     stiffness: Series,
 }
 
-impl Linearized {
+impl VariationalEquation {
     pub fn along_step(step: &TaylorStep) -> Self {
         let (rate, hertz) = (step.time_rate_series(), &step.hertz);
         let mut stiffness = rate.map(|rate| step.stiffness * rate);
@@ -245,13 +253,15 @@ impl Linearized {
         }
     }
 
-    /// The integral of damping over mass up to a place of the step and its time.
+    /// The integral over time of damping over mass, linear and of the contact, up to `time`, where the step has this
+    /// `sigma`.
     pub fn damping_integral(&self, time: f64, sigma: f64) -> f64 {
         let grip = self.grip.as_ref().map_or(0.0, |grip| integral(grip, sigma));
         self.damping * time + grip
     }
 
-    /// Solutions (y, u) as series in sigma from (1, 0), from (0, 1) and, if there is a force, from (0, 0) under it.
+    /// Solutions (y, u) of the variational equation as series in sigma: from (1, 0), from (0, 1) and, if there is a
+    /// force, from (0, 0) under it.
     pub fn solve_variations(&self, force: Option<&Series>) -> [[Series; 2]; 3] {
         let mut found = [[ZERO; 2]; 3];
         (found[0][0][0], found[1][1][0]) = (1.0, 1.0);

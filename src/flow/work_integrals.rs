@@ -3,13 +3,14 @@
 use nalgebra::Complex;
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::{DriveAngle, ScanNode};
+use super::departure::ScanNode;
+use super::drive_angle::DriveAngle;
 use super::gauss::gauss_nodes;
 use super::particular_solution::ParticularSolution;
 use super::series::{ZERO, integral_of_product, value};
 use super::taylor_step::TaylorStep;
 
-/// Integrals of power along an arc, per unit of mass, in m^2/s^2.
+/// The energies that an arc takes up and loses, per unit of mass, in m^2/s^2: integrals of power over time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct WorkIntegrals {
     /// Work of the forcing, without the law's own constant force.
@@ -21,7 +22,7 @@ pub(crate) struct WorkIntegrals {
 }
 
 impl ArcSolution {
-    /// Work from departure to a node; `law` is the part of the constant forcing that is the phase's own force.
+    /// Work per mass from departure to a node; `law` is the part of the constant forcing that is the phase's own force.
     pub(crate) fn work_integrals(&self, to: &ScanNode, law: f64) -> WorkIntegrals {
         let elapsed = to.elapsed;
         match &self.form {
@@ -38,8 +39,8 @@ impl ArcSolution {
         }
     }
 
-    /// Work by Gauss quadrature in panels as wide as a Taylor polynomial reaches, wider by a quarter from one to the
-    /// next while a fast mode dies out, up to a scan window.
+    /// Work per mass by Gauss's rule in panels as wide as a Taylor polynomial reaches, wider by a quarter from one to
+    /// the next while a fast mode dies out, up to a scan window.
     fn work_by_quadrature(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let (mut supplied, mut square) = (0.0, 0.0);
         let (mut start, mut width) = (0.0, self.flow.reach);
@@ -61,7 +62,7 @@ impl ArcSolution {
         }
     }
 
-    /// Push and velocity at the Gauss nodes of a panel that begins at `start`.
+    /// Forcing per mass and velocity at the nodes of a panel of the work quadrature that begins at `start`.
     fn forcing_and_velocity(&self, start: f64, nodes: &[(f64, f64); 8]) -> [(f64, f64); 8] {
         let node = if start == 0.0 {
             self.start_node()
@@ -115,7 +116,7 @@ impl ArcSolution {
         }
     }
 
-    /// Integral of y' e^(i angle) over time, y being the free deviation from the particular solution.
+    /// The work integral of y' e^(i angle) over time, y being the free deviation from the particular solution.
     ///
     /// y'' + 2 a y' + b y = 0 times e^(i angle), integrated by parts, gives (b - w^2 - 2 i a w) I = -[e y'] - (2 a - i
     /// w) [e y] for I, the integral of y e^(i angle), with e = e^(i angle) in the differences between the ends.
@@ -157,7 +158,8 @@ impl ArcSolution {
 }
 
 impl TaylorStep {
-    /// Work up to `elapsed`; `law` is the part of the constant forcing that is the phase's own force.
+    /// Work per mass along this step up to `elapsed`; `law` is the part of the constant forcing that is the phase's own
+    /// force.
     pub fn work(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let law = self.side() * law;
         if self.regularized.is_none() && !self.is_pressed {
@@ -179,7 +181,8 @@ impl TaylorStep {
         done
     }
 
-    /// Work of a linear law, whose sigma is time: the integrals of the polynomials themselves, whatever their degree.
+    /// Work per mass of a linear law along a step in time: the integrals of the polynomials themselves, whatever their
+    /// degree.
     fn work_in_time(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let mut force = self.forcing;
         force[0] -= law;
@@ -194,7 +197,7 @@ impl TaylorStep {
     }
 }
 
-/// Integrals over time of products of cos and sin of the drive angle.
+/// Integrals over time of products of cosine and sine of the drive angle, as work in closed form is made of them.
 struct DriveIntegrals {
     cos: f64,
     sin: f64,

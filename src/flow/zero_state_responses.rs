@@ -7,28 +7,24 @@ use nalgebra::Vector2;
 use super::modes::Modes;
 use crate::budget;
 
-/// Position and velocity at one time.
-type State = Vector2<f64>;
-
-/// Zero-state responses to 1, t, cos(w t) and sin(w t) at one time.
+/// Responses from rest (position, velocity) of a linear law to the forces 1, t, cos(w t) and sin(w t) at one time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ZeroStateResponses {
-    pub constant: State,
-    pub ramp: State,
-    pub cosine: State,
-    pub sine: State,
+    pub constant: Vector2<f64>,
+    pub ramp: Vector2<f64>,
+    pub cosine: Vector2<f64>,
+    pub sine: Vector2<f64>,
 }
 
-/// Terms of the Taylor series: (1/2)^n / n! falls below 1e-20 at n = 15.
+/// Terms of the Taylor series before the first doubling, up to (fastest rate) x (time) = 1/2: (1/2)^n / n! falls below
+/// 1e-20 at n = 15.
 const TERMS: usize = 16;
-/// Largest (fastest rate) x (time) that the series has to bridge.
-const REACH: f64 = 0.5;
 
 impl ZeroStateResponses {
-    /// Responses of x'' + 2 a x' + b x after `t` seconds to forces with frequency `w`.
+    /// The zero-state responses of x'' + 2 a x' + b x after `t` seconds, to forces with frequency `w`.
     pub fn after_time(modes: &Modes, w: f64, t: f64) -> Self {
         let rate = modes.fastest_rate().max(w);
-        let doublings = (rate * t / REACH).log2().ceil().clamp(0.0, 1000.0) as i32;
+        let doublings = (rate * t / 0.5).log2().ceil().clamp(0.0, 1000.0) as i32;
         budget::charge(budget::ZERO_STATE_RESPONSES + budget::DOUBLING * doublings as u64);
         let mut span = t * 0.5f64.powi(doublings);
         let mut responses = Self::sum_series(modes, w, span);
@@ -39,7 +35,7 @@ impl ZeroStateResponses {
         responses
     }
 
-    /// The responses after a short time, by their series.
+    /// The zero-state responses after a short time, by Taylor series.
     fn sum_series(modes: &Modes, w: f64, t: f64) -> Self {
         let unit = |n: usize| move |k: usize| if k == n { 1.0 } else { 0.0 };
         let harmonic = |offset: usize| {
@@ -64,7 +60,8 @@ impl ZeroStateResponses {
         }
     }
 
-    /// From `h` to `2 h`: the state reached evolves freely while the force, shifted by `h`, starts again.
+    /// The zero-state responses after `2 h` from these after `h`: the state reached goes on freely while the force,
+    /// shifted by `h`, begins again.
     fn double_time(&self, modes: &Modes, w: f64, h: f64) -> Self {
         let free = modes.transition(h);
         let (sin, cos) = (w * h).sin_cos();
@@ -77,8 +74,8 @@ impl ZeroStateResponses {
     }
 }
 
-/// Sums the solution of x'' + 2 a x' + b x = sum f_n t^n from rest.
-fn sum_response(modes: &Modes, t: f64, force: impl Fn(usize) -> f64) -> State {
+/// The zero-state response of x'' + 2 a x' + b x to the force sum f_n t^n, by its Taylor series.
+fn sum_response(modes: &Modes, t: f64, force: impl Fn(usize) -> f64) -> Vector2<f64> {
     let mut c = [0.0; TERMS + 2];
     for n in 0..TERMS {
         let k = n as f64;
@@ -90,5 +87,5 @@ fn sum_response(modes: &Modes, t: f64, force: impl Fn(usize) -> f64) -> State {
         x = (x + c[n]) * t;
         v = v * t + n as f64 * c[n];
     }
-    State::new(x, v)
+    Vector2::new(x, v)
 }

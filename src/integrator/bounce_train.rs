@@ -30,10 +30,6 @@ impl Default for BounceTrain {
 /// pressed with less than its preload, bounces shrink only by viscous damping: their number grows
 /// beyond all bounds as their height goes to zero.
 const PATIENCE: u32 = 10_000;
-/// Height of a bounce, relative to the highest of the row and to the position of the surface, that
-/// then counts as rest. It grows with the square of the row's length, as heights shrink with it: so
-/// the row ends after some millions of crossings at the latest.
-const FAINT: f64 = 1e-11;
 
 impl BounceTrain {
     /// Counts a crossing of a surface.
@@ -56,7 +52,8 @@ impl BounceTrain {
             return RestThreshold::ROUNDING;
         }
         let length = f64::from(self.crossings) / f64::from(PATIENCE);
-        let faint = FAINT * length * length;
+        // Heights shrink with the square of the length: so the train ends after some millions of crossings at the latest.
+        let faint = 1e-11 * length * length;
         RestThreshold {
             height: faint,
             slowest: faint.sqrt() * self.fastest,

@@ -68,9 +68,6 @@ impl InitialConditions {
     }
 }
 
-/// Most drive periods since time 0 at which a double resolves the drive angle.
-const LAST_CYCLE: f64 = 9.0e15;
-
 impl Simulation {
     /// The machine from a [`Start`] at time 0 s, or as a [`InitialConditions`] says.
     ///
@@ -283,7 +280,7 @@ impl Simulation {
 
 /// Refuses a time at which the drive angle is not resolved any more.
 fn within_reach(clock: &Clock, until: f64, epoch: f64) -> Result<(), MotionError> {
-    let farthest = LAST_CYCLE * clock.period();
+    let farthest = 9.0e15 * clock.period();
     if (until - epoch).abs() > farthest {
         return Err(MotionError::TooFar { until, farthest });
     }

@@ -10,10 +10,6 @@ use crate::error::MotionError;
 use crate::events::NextEvent;
 use crate::phases::Mode;
 
-/// Share of the drive period within which two instants are one and the same but for rounding.
-const SAME_INSTANT: f64 = 64.0 * f64::EPSILON;
-/// Share of a time that those who add up times may miss it by.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Crossings at one instant that happen together; those of a longer row follow when they are told to.
 const MOST_TOGETHER: u32 = 1000;
 
@@ -35,7 +31,7 @@ impl Motion {
 
     /// Time in s that is too short to tell two instants apart.
     fn resolution(&self) -> f64 {
-        SAME_INSTANT * self.clock.period()
+        64.0 * f64::EPSILON * self.clock.period()
     }
 
     /// Lets the crossing happen that the motion stands before.
@@ -80,7 +76,7 @@ impl Simulation {
 
     /// How far in s a crossing may lie beyond a time in s that is reached from now on, to happen at that time.
     pub(super) fn rounding_at(&self, time: f64) -> f64 {
-        ROUNDING * time.abs().max(time - self.now)
+        8.0 * f64::EPSILON * time.abs().max(time - self.now)
     }
 
     /// Lets the crossing happen that the machine stands before, with those that follow at the same instant; false if it

@@ -80,13 +80,11 @@ pub struct Excitation {
     pub phase: f64,
 }
 
-/// Largest drive angle in rad that is computed with as it is: rounding takes less than 1e-13 rad of it.
-const MAX_PLAIN_PHASE: f64 = 1e3;
-
 impl Excitation {
     /// Drive angle phi at time 0 in rad, without its whole turns where they would take digits of what is added to it.
     pub fn reduced_phase(&self) -> f64 {
-        if self.phase.abs() <= MAX_PLAIN_PHASE {
+        // Rounding takes less than 1e-13 rad of such an angle.
+        if self.phase.abs() <= 1e3 {
             return self.phase;
         }
         let (sin, cos) = self.phase.sin_cos();

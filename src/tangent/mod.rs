@@ -43,7 +43,7 @@ impl Tangent {
     /// to its start.
     fn extend_along(&mut self, arc: &Arc<'_>, elapsed: f64, since: Option<f64>) -> Transition {
         let transition = match arc.phase {
-            Some(_) => arc.course.transition(elapsed, since),
+            Some(_) => arc.course.state_transition(elapsed, since),
             None => {
                 self.determinant = 0.0;
                 Transition {

@@ -70,7 +70,7 @@ impl<'a> ParameterSensitivity<'a> {
         let logarithm = forces
             .iter()
             .any(|forces| forces[ForceBasis::Logarithm as usize] != 0.0);
-        let answers = course.response(elapsed, logarithm)?;
+        let answers = course.parameter_response(elapsed, logarithm)?;
         let columns = self.columns.iter().enumerate().map(|(index, start)| {
             // Energies are in J, answers in m.
             let from = StateAndSupply::new(start.x, start.y, 0.0);

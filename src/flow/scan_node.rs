@@ -1,11 +1,12 @@
 //! Nodes of an arc: its states, and how a scan steps from one to the next, window by window.
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::{DriveAngle, ScanNode};
+use super::departure::ScanNode;
+use super::drive_angle::DriveAngle;
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 
-/// What is known of a scan window.
+/// A scan window: the nodes at its ends, with a bound on the fourth derivative of the position between them.
 pub(crate) struct ScanWindow<'a> {
     pub left: &'a ScanNode,
     pub right: &'a ScanNode,
@@ -13,30 +14,30 @@ pub(crate) struct ScanWindow<'a> {
     pub bound: f64,
 }
 
-/// Windows counted from one origin.
-const MOST_WINDOWS: u32 = 1 << 31;
-/// Windows by which drive and modes are advanced by rotation before a node is evaluated afresh, against the growth of rounding.
+/// Most scan windows that are counted from one origin.
+const MAX_COUNTED_WINDOWS: u32 = 1 << 31;
+/// Scan windows over which nodes are advanced by rotation before one is evaluated afresh, against the growth of
+/// rounding.
 const WINDOWS_PER_EXACT_NODE: u32 = 8;
 
-/// Ratio of the long window to the usual one from which it is worth asking whether it can be used.
-const LONG: f64 = 4.0;
-/// Free motion, relative to the whole, that counts as none.
-const SETTLED: f64 = 16.0 * f64::EPSILON;
+/// Ratio of the long scan window to the usual one from which it is worth asking whether it can be used.
+const MIN_LONG_WINDOW_RATIO: f64 = 4.0;
 
 impl ArcSolution {
-    /// The departure as a node.
+    /// The scan node at the departure.
     pub fn start_node(&self) -> ScanNode {
         let from = &self.departure;
         self.node_of_state(0.0, from.drive, (from.position, from.velocity))
     }
 
-    /// The node at `elapsed`, evaluated afresh.
+    /// The scan node at `elapsed`, evaluated afresh.
     pub fn node_at(&self, elapsed: f64) -> ScanNode {
         let drive = self.drive_at(elapsed);
         self.node_of_state(elapsed, drive, self.state_at(elapsed, drive))
     }
 
-    /// The node of a linear law within half a reach, with what position and velocity have changed by.
+    /// The scan node of a linear law within half its reach from the departure, with the changes of position and
+    /// velocity since then; none otherwise.
     pub(crate) fn node_near_start(&self, elapsed: f64) -> Option<(ScanNode, (f64, f64))> {
         if elapsed > 0.5 * self.flow.reach || !self.is_closed_form() {
             return None;
@@ -50,7 +51,7 @@ impl ArcSolution {
         Some((node, (way, rise)))
     }
 
-    /// The node at `elapsed` where drive and state are known.
+    /// The scan node at `elapsed` where drive angle and state are known.
     pub(crate) fn node_of_state(
         &self,
         elapsed: f64,
@@ -75,11 +76,12 @@ impl ArcSolution {
         }
     }
 
-    /// The node one scan window on: by rotation where that is possible, evaluated afresh every few
-    /// windows, so that neither times nor states drift.
+    /// The scan node one window on: by rotation where that is possible, evaluated afresh every few windows, so that
+    /// neither times nor states drift.
     #[inline]
     pub(crate) fn next_node(&self, node: &ScanNode) -> ScanNode {
-        if self.flow.long_window > LONG * self.flow.window && self.is_settled(node) {
+        if self.flow.long_window > MIN_LONG_WINDOW_RATIO * self.flow.window && self.is_settled(node)
+        {
             return self.node_at(node.elapsed + self.flow.long_window);
         }
         let (origin, windows) = (node.origin, node.windows + 1);
@@ -88,7 +90,7 @@ impl ArcSolution {
             Form::Particular { particular, .. } if windows % WINDOWS_PER_EXACT_NODE != 0 => {
                 particular
             }
-            _ if windows >= MOST_WINDOWS => return self.node_at(elapsed),
+            _ if windows >= MAX_COUNTED_WINDOWS => return self.node_at(elapsed),
             _ => {
                 return ScanNode {
                     origin,
@@ -100,7 +102,7 @@ impl ArcSolution {
         self.rotated_node(&particular, node)
     }
 
-    /// The node one scan window on, by the transition matrix of a window and the turn of the drive.
+    /// The scan node one window on, by the transition matrix of a window and the turn of the drive in it.
     #[inline(always)]
     fn rotated_node(&self, particular: &ParticularSolution, node: &ScanNode) -> ScanNode {
         let (origin, windows) = (node.origin, node.windows + 1);
@@ -123,8 +125,9 @@ impl ArcSolution {
         }
     }
 
-    /// Moves the node on over scan windows that are reached by rotation and are clear, as `is_clear` says, up to
-    /// `until`; at a window that is not, returns its right end and its bound.
+    /// Advances a scan node by rotation over windows that `is_clear` says have no crossing, up to `until`. Returns the
+    /// right end of the first window that is not clear, with its bound; none if there is no such window, or the next
+    /// node needs another evaluation.
     #[inline(never)]
     pub(crate) fn skip_clear_windows(
         &self,
@@ -136,7 +139,7 @@ impl ArcSolution {
         let Form::Particular { particular, .. } = self.form else {
             return None;
         };
-        if flow.long_window > LONG * flow.window {
+        if flow.long_window > MIN_LONG_WINDOW_RATIO * flow.window {
             return None;
         }
         let (damping, stiffness) = (2.0 * flow.modes.decay, flow.modes.stiffness);
@@ -170,13 +173,14 @@ impl ArcSolution {
         None
     }
 
-    /// True if nothing is left of the free motion.
+    /// True if at a scan node the free motion has decayed to 16 roundings of the whole motion, so that long windows
+    /// will do.
     fn is_settled(&self, node: &ScanNode) -> bool {
         match self.form {
             Form::Particular { particular, .. } => {
                 let (y, rate) = node.deviation;
                 let size = node.position.abs() + particular.offset.abs();
-                self.flow.modes.amplitude_bound(y, rate) <= SETTLED * size
+                self.flow.modes.amplitude_bound(y, rate) <= 16.0 * f64::EPSILON * size
             }
             Form::Responses => {
                 let late = self.flow.late;
