@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, Ratios};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{Loss, hysteresis};
-use softstop_dynamics::{Continuation, Limits, Orbit};
+use softstop_dynamics::{BranchLimits, Continuation, Orbit};
 use softstop_optimize::robust::Distribution;
 use softstop_optimize::spread::{AbsoluteTolerance, PolynomialModel, Settled, Tolerances, along};
 use softstop_testing::assert_relative;
@@ -47,7 +47,7 @@ fn a_way_out_that_ends_in_a_flip_ends_at_that_of_its_branch() -> Outcome {
     assert_eq!(reached.loss, Some(Loss::Flip));
     let family =
         softstop_dynamics::ParameterFamily::new(spread.scene(&[0.0; 2]), [Parameter::Frequency])?;
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.5, 1.2),
         points: 500,
     };

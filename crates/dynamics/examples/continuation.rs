@@ -4,14 +4,14 @@ use approx::assert_abs_diff_eq;
 use std::ops::ControlFlow;
 
 use softstop::{Parameter, Ratios};
-use softstop_dynamics::{Continuation, Limits, ParameterFamily, orbit};
+use softstop_dynamics::{BranchLimits, Continuation, ParameterFamily, orbit};
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Ratios::unloaded().scene()?;
     let state = orbit::find(&scene)?.state();
     let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.9, 1.5),
         points: 500,
     };

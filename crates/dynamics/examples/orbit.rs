@@ -2,12 +2,12 @@
 
 use approx::assert_abs_diff_eq;
 use softstop::Ratios;
-use softstop_dynamics::{Exponents, orbit};
+use softstop_dynamics::{LyapunovExponents, orbit};
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let orbit = orbit::find(&Ratios::unloaded().scene()?)?;
-    let exponents = Exponents::of(&orbit);
+    let exponents = LyapunovExponents::of(&orbit);
     println!(
         "z = {}: X'- = {}",
         orbit.regime(),

@@ -11,10 +11,10 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use softstop::{Parameter, Scene, Stop};
-use softstop_dynamics::continuation::{End, SpecialKind};
+use softstop_dynamics::continuation::{BranchEnd, SpecialKind};
 use softstop_dynamics::orbit::{OrbitError, find};
 use softstop_dynamics::{
-    Branch, BranchPoint, Continuation, Limits, Orbit, ParameterFamily, StroboscopicMap,
+    Branch, BranchLimits, BranchPoint, Continuation, Orbit, ParameterFamily, StroboscopicMap,
 };
 use softstop_testing::machines::machines;
 use softstop_testing::random;
@@ -55,7 +55,7 @@ fn branch(scene: &Scene, orbit: &Orbit, along: Parameter) -> Result<Branch, Orbi
         Parameter::Frequency => (0.5 * value, 2.0 * value),
         _ => (value - 3.0, value + 3.0),
     };
-    let limits = Limits {
+    let limits = BranchLimits {
         range,
         points: POINTS,
     };
@@ -74,7 +74,7 @@ fn untold(branch: &Branch) -> Vec<(&BranchPoint, &BranchPoint)> {
         special.is_some_and(|special| matches!(special.kind, SpecialKind::Grazing(_)))
     };
     let [first, last] =
-        [&branch.ends.0, &branch.ends.1].map(|end| usize::from(matches!(end, End::Merged)));
+        [&branch.ends.0, &branch.ends.1].map(|end| usize::from(matches!(end, BranchEnd::Merged)));
     let points = &branch.points[first..branch.points.len() - last];
     let pairs = points.iter().zip(points.iter().skip(1));
     pairs
@@ -110,7 +110,7 @@ fn every_branch_ends_in_something_named_and_tells_each_grazing() {
                 }
                 for end in [&branch.ends.0, &branch.ends.1] {
                     count(format!("{end:?}"));
-                    if matches!(end, End::Lost(_) | End::Stopped) {
+                    if matches!(end, BranchEnd::Lost(_) | BranchEnd::Stopped) {
                         lost.borrow_mut()
                             .push(format!("{along:?}: {end:?} {scene:?}"));
                     }

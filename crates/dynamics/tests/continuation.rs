@@ -12,12 +12,12 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Release, Scene, Start};
 use softstop_dynamics::continuation::{
-    ContinuationSettings, Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special,
-    SpecialKind, TestFunction, follow_special, normal_form_coefficient,
+    BranchEnd, ContinuationSettings, Curve, CurveEnd, CurveLimits, CurvePoint, Family, SpecialKind,
+    SpecialPoint, SwitchingSurface, TestFunction, follow_special, normal_form_coefficient,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{
-    Branch, BranchPoint, Continuation, Limits, ParameterFamily, StroboscopicMap,
+    Branch, BranchLimits, BranchPoint, Continuation, ParameterFamily, StroboscopicMap,
 };
 use softstop_testing::reference::{FOLDS, MACHINE, list, number};
 use softstop_testing::tangent::differences;
@@ -39,7 +39,7 @@ fn branch(eta: f64, n: u64, state: (f64, f64), range: (f64, f64)) -> Branch {
 
 /// The branch of a family from a frequency and a state on.
 fn follow(family: &Frequencies, n: u64, from: (f64, Vector2<f64>), range: (f64, f64)) -> Branch {
-    let limits = Limits { range, points: 500 };
+    let limits = BranchLimits { range, points: 500 };
     let go_on = |_: &_| ControlFlow::Continue(());
     let branch = Continuation::new(family, n).branch(from.0, from.1, &limits, go_on);
     branch.expect("a branch")
@@ -52,7 +52,7 @@ fn double(family: &Frequencies, n: u64, flip: &BranchPoint) -> Branch {
 
 /// That over some frequencies.
 fn double_within(family: &Frequencies, n: u64, flip: &BranchPoint, range: (f64, f64)) -> Branch {
-    let limits = Limits { range, points: 500 };
+    let limits = BranchLimits { range, points: 500 };
     let go_on = |_: &_| ControlFlow::Continue(());
     let doubled = Continuation::new(family, n).double_period(flip, &limits, go_on);
     doubled.expect("a branch of twice the period")
@@ -69,12 +69,16 @@ fn a_branch_from_a_tiny_value_of_the_parameter_is_that_from_a_usual_one() {
         let settled = scene.trajectory(Start::REST, 400).expect("a motion").end;
         let family = ParameterFamily::new(scene, [Parameter::Amplitude]).expect("a parameter");
         let (range, points) = ((amplitude, 1.3), 4000);
-        let limits = Limits { range, points };
+        let limits = BranchLimits { range, points };
         let go_on = |_: &_| ControlFlow::Continue(());
         let branch =
             Continuation::new(&family, 1).branch(amplitude, settled.into(), &limits, go_on);
         let branch = branch.expect("a branch");
-        assert!(matches!(branch.ends.1, End::Range), "{:?}", branch.ends);
+        assert!(
+            matches!(branch.ends.1, BranchEnd::Range),
+            "{:?}",
+            branch.ends
+        );
         let specials = branch.specials.into_iter();
         let specials = specials.map(|it| (it.kind.symbol(), it.point.parameter));
         specials.collect::<Vec<_>>()
@@ -133,7 +137,7 @@ fn all_of_z1() -> Branch {
     branch(1.15, 1, A, (0.5, 2.0))
 }
 
-fn of_kind(branch: &Branch, symbol: &str) -> Vec<Special> {
+fn of_kind(branch: &Branch, symbol: &str) -> Vec<SpecialPoint> {
     let specials = branch.specials.iter();
     let found = specials.filter(|special| special.kind.symbol() == symbol);
     found.cloned().collect()
@@ -159,19 +163,25 @@ fn z1_goes_from_grazing_over_flip_and_fold_to_grazing() {
     assert_near(flip.point.parameter, 0.988_907, printed(6));
     assert_near(fold.point.parameter, 1.369_036, printed(6));
     assert_near(fold.point.before_impact_velocity(), 16.87, printed(2));
-    assert!(matches!(branch.ends, (End::Grazing, End::Grazing)));
+    assert!(matches!(
+        branch.ends,
+        (BranchEnd::Grazing, BranchEnd::Grazing)
+    ));
 }
 
 #[test]
 fn the_other_side_of_the_same_grazing() {
     let branch = branch(1.15, 1, (-3.0, 0.5), (0.96, 2.0));
-    assert!(matches!(branch.ends, (End::Grazing, End::Range)));
+    assert!(matches!(
+        branch.ends,
+        (BranchEnd::Grazing, BranchEnd::Range)
+    ));
     let graze = &branch.specials[0];
     let (_, above) = grazing_frequencies(&unloaded()).expect("a boundary");
     assert_near(graze.point.parameter, above, MOTION);
     match graze.kind {
         SpecialKind::Grazing(graze) => {
-            assert!(!graze.dies && graze.impacts == 0 && graze.face == Face::Clearance);
+            assert!(!graze.dies && graze.impacts == 0 && graze.face == SwitchingSurface::Clearance);
         }
         other => panic!("{other:?}"),
     }
@@ -190,7 +200,8 @@ fn grazing_ends_the_subharmonic_motions() {
     for (eta, n, state, expected) in rows {
         let branch = branch(eta, n, state, (0.9, 1.1));
         let grazings = of_kind(&branch, "G");
-        let near = |special: &&Special| is_near(special.point.parameter, expected, 10.0 * GROWN);
+        let near =
+            |special: &&SpecialPoint| is_near(special.point.parameter, expected, 10.0 * GROWN);
         assert!(
             grazings.iter().any(|special| near(&special)),
             "{grazings:?}"
@@ -231,7 +242,7 @@ fn inner_surfaces_end_a_branch_too() {
     for end in [&branch.specials[0], &branch.specials[3]] {
         match end.kind {
             SpecialKind::Grazing(graze) => {
-                assert!(graze.face == Face::Stop && graze.dies && graze.impacts == 1);
+                assert!(graze.face == SwitchingSurface::Stop && graze.dies && graze.impacts == 1);
             }
             other => panic!("{other:?}"),
         }
@@ -254,7 +265,7 @@ fn a_branch_from_an_end_of_its_range() {
     for (low, high) in [(eta, 2.0), (0.5, eta)] {
         let found = branch(eta, 1, (from.position, from.velocity), (low, high));
         assert!(
-            matches!(found.ends, (End::Range, _) | (_, End::Range)),
+            matches!(found.ends, (BranchEnd::Range, _) | (_, BranchEnd::Range)),
             "{:?}",
             found.ends
         );
@@ -357,7 +368,7 @@ fn settings_change_the_points_of_a_branch_but_not_what_is_found_on_it() {
     let family = frequencies(0.95);
     let start = branch(0.95, 1, (0.0, 14.0), (0.9, 1.1)).points[0].clone();
     let with = |settings| Continuation::new(&family, 1).with_settings(settings);
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.9, 1.1),
         points: 2000,
     };

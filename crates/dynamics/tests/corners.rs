@@ -5,10 +5,10 @@ use softstop_testing::tolerance::SOLVED;
 use std::ops::ControlFlow;
 
 use softstop::{Machine, Parameter, Ratios, Scene, Stop};
-use softstop_dynamics::continuation::{End, TestFunction};
+use softstop_dynamics::continuation::{BranchEnd, TestFunction};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{
-    Branch, BranchPoint, Continuation, Limits, Orbit, ParameterFamily, StroboscopicMap,
+    Branch, BranchLimits, BranchPoint, Continuation, Orbit, ParameterFamily, StroboscopicMap,
 };
 use softstop_testing::is_near;
 
@@ -25,7 +25,7 @@ fn branch(
     let orbit: Orbit = find(&scene)?;
     let eta = scene.excitation.frequency;
     let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
-    let limits = Limits {
+    let limits = BranchLimits {
         range,
         points: 2000,
     };
@@ -108,7 +108,7 @@ fn turning_points_pass_kinks() -> Outcome {
     let scene = Machine::from_toml(file)?.scene;
     let branch = branch(&scene, 0.0, (0.9, 1.6))?;
     assert!(
-        matches!(branch.ends, (End::Range, End::Range)),
+        matches!(branch.ends, (BranchEnd::Range, BranchEnd::Range)),
         "{:?}",
         branch.ends
     );
@@ -148,7 +148,7 @@ fn a_fold_at_a_touch_is_told_from_one_that_multipliers_pass() -> Outcome {
     let scene = Machine::from_toml(file)?.scene;
     let state = find(&scene)?.state();
     let family = ParameterFamily::new(scene, [Parameter::Amplitude])?;
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.01, 3.0),
         points: 2000,
     };

@@ -7,8 +7,8 @@ use softstop::internals::turning_points;
 use softstop::{
     Below, CheckedScene, CrossingKind, Machine, Parameter, Release, Scene, Start, Stop,
 };
-use softstop_dynamics::continuation::{End, Face, SpecialKind};
-use softstop_dynamics::{Branch, BranchPoint, Continuation, Limits, ParameterFamily};
+use softstop_dynamics::continuation::{BranchEnd, SpecialKind, SwitchingSurface};
+use softstop_dynamics::{Branch, BranchLimits, BranchPoint, Continuation, ParameterFamily};
 use softstop_testing::scenes::{hertz, kelvin_voigt, piercing, preloaded, rigid_stop, slope};
 
 /// Kinetic energy at a crossing, or distance of a turning point from a face, in units of the machines, which have them about 1,
@@ -20,9 +20,9 @@ fn crossings(scene: &CheckedScene, point: &BranchPoint, periods: u64) -> Option<
     let motion = scene.trajectory(Start::new(point.position, point.velocity), periods);
     let motion = motion.expect("a motion");
     let drift = (Vector2::from(motion.end) - point.state()).norm();
-    let faces = Face::ALL
+    let faces = SwitchingSurface::ALL
         .into_iter()
-        .filter_map(|face| face.face_position(scene));
+        .filter_map(|face| face.surface_position(scene));
     let faces: Vec<f64> = faces.collect();
     let is_at = |position: f64, face: f64| (position - face).abs() < 1e-13;
     let met = motion.crossings().filter(|it| {
@@ -111,7 +111,7 @@ fn follow(scene: Scene, parameter: Parameter, periods: u64) {
     let machine = Machine::from(scene);
     let own = machine.value(parameter).expect("a value");
     let family = ParameterFamily::new(machine.clone(), [parameter]).expect("a family");
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.85 * own, 1.3 * own),
         points: 1500,
     };
@@ -120,7 +120,10 @@ fn follow(scene: Scene, parameter: Parameter, periods: u64) {
     let branch = branch.expect("a branch");
     assert_eq!(branch.periods, periods);
     for end in [&branch.ends.0, &branch.ends.1] {
-        let is_reached = matches!(end, End::Range | End::Grazing | End::Merged);
+        let is_reached = matches!(
+            end,
+            BranchEnd::Range | BranchEnd::Grazing | BranchEnd::Merged
+        );
         assert!(is_reached, "{end:?} at {own}");
     }
     each_change_is_told(&machine, parameter, &branch);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 use softstop::{Scene, Stop};
-use softstop_dynamics::{Exponents, Orbit, StroboscopicMap};
+use softstop_dynamics::{LyapunovExponents, Orbit, StroboscopicMap};
 use softstop_testing::tolerance::{MOTION, ROUNDING, SOLVED};
 use softstop_testing::{assert_near, is_near, unloaded};
 
@@ -29,9 +29,9 @@ fn orbits() -> Vec<Orbit> {
 #[test]
 fn on_periodic_motions_they_are_the_logarithms_of_the_multipliers() {
     for orbit in orbits() {
-        let exact = Exponents::of(&orbit);
+        let exact = LyapunovExponents::of(&orbit);
         let (along, _) =
-            Exponents::along_motion(&orbit.scene, orbit.state(), 200).expect("bounded");
+            LyapunovExponents::along_motion(&orbit.scene, orbit.state(), 200).expect("bounded");
         for (exact, along) in exact.per_period.iter().zip(along.per_period) {
             // Complex multipliers turn the frame: the mean is off by a fraction of a turn over 6,400 periods.
             assert!(is_near(*exact, along, 1e-3), "{exact} {along}");
@@ -52,7 +52,7 @@ fn their_sum_is_the_mean_divergence_in_chaos_too() {
     rigid.stop = Stop::Rigid { restitution: 0.8 };
     for (scene, restitution) in [(unloaded(0.9875), 1.0f64), (rigid, 0.8)] {
         let state = Vector2::new(9.258_494_864, 3.539_666_112);
-        let (exponents, _) = Exponents::along_motion(&scene, state, 20).expect("bounded");
+        let (exponents, _) = LyapunovExponents::along_motion(&scene, state, 20).expect("bounded");
         let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
         let (mut state, mut divergence, mut impacts) = (state, 0.0, 0);
         for _ in 0..exponents.periods {
@@ -72,11 +72,12 @@ fn their_sum_is_the_mean_divergence_in_chaos_too() {
 #[test]
 fn chaos_has_a_positive_one_beyond_its_error() {
     let state = Vector2::new(9.258_494_864, 3.539_666_112);
-    let (chaos, end) = Exponents::along_motion(&unloaded(0.9875), state, 100).expect("bounded");
+    let (chaos, end) =
+        LyapunovExponents::along_motion(&unloaded(0.9875), state, 100).expect("bounded");
     assert!(chaos.is_positive(), "{chaos:?}");
     assert!(chaos.error > 0.0 && chaos.error < 0.02, "{chaos:?}");
     // Another stretch of the same motion agrees within both errors, doubled.
-    let (again, _) = Exponents::along_motion(&unloaded(0.9875), end, 100).expect("bounded");
+    let (again, _) = LyapunovExponents::along_motion(&unloaded(0.9875), end, 100).expect("bounded");
     assert_near(
         again.per_period[0],
         chaos.per_period[0],
@@ -89,7 +90,8 @@ fn sticking_wipes_out_all_differences() {
     let mut scene = unloaded(0.3);
     scene.stop = Stop::Rigid { restitution: 0.6 };
     scene.clearance = 0.0;
-    let (found, _) = Exponents::along_motion(&scene, Vector2::new(-0.5, 0.1), 2).expect("bounded");
+    let (found, _) =
+        LyapunovExponents::along_motion(&scene, Vector2::new(-0.5, 0.1), 2).expect("bounded");
     assert_eq!(found.per_period, [f64::NEG_INFINITY; 2]);
     assert!(!found.is_positive());
 }
@@ -115,7 +117,7 @@ fn information_dimension(states: &[Vector2<f64>]) -> f64 {
 fn the_kaplan_yorke_dimension_is_the_information_dimension() {
     let scene = unloaded(0.9875);
     let state = Vector2::new(9.258_494_864, 3.539_666_112);
-    let (exponents, state) = Exponents::along_motion(&scene, state, 1000).expect("bounded");
+    let (exponents, state) = LyapunovExponents::along_motion(&scene, state, 1000).expect("bounded");
     let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
     let next = |state: &Vector2<f64>| map.image(*state).ok();
     let states = std::iter::successors(Some(state), next).take(400_000);
@@ -127,8 +129,8 @@ fn the_kaplan_yorke_dimension_is_the_information_dimension() {
 #[test]
 fn what_dies_out_has_no_dimension_and_what_does_not_contract_fills_the_plane() {
     let orbit = &orbits()[0];
-    assert_eq!(Exponents::of(orbit).kaplan_yorke_dimension(), 0.0);
-    let mut exponents = Exponents::of(orbit);
+    assert_eq!(LyapunovExponents::of(orbit).kaplan_yorke_dimension(), 0.0);
+    let mut exponents = LyapunovExponents::of(orbit);
     exponents.per_period = [0.1, f64::NEG_INFINITY];
     assert_eq!(exponents.kaplan_yorke_dimension(), 1.0);
     exponents.per_period = [0.1, -0.05];

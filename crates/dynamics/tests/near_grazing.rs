@@ -12,9 +12,9 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::internals::turning_points;
 use softstop::{Below, CheckedScene, Parameter, Scene, Start, Stop};
-use softstop_dynamics::continuation::End;
+use softstop_dynamics::continuation::BranchEnd;
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily, StroboscopicMap};
+use softstop_dynamics::{Branch, BranchLimits, Continuation, ParameterFamily, StroboscopicMap};
 use softstop_testing::assert_near;
 use softstop_testing::scenes::preloaded;
 use softstop_testing::tolerance::ROUNDING;
@@ -23,7 +23,7 @@ use softstop_testing::tolerance::ROUNDING;
 fn branch(scene: &Scene, along: Parameter, state: Vector2<f64>, range: (f64, f64)) -> Branch {
     let from = along.get(scene).expect("it has one");
     let family = ParameterFamily::new(scene.clone(), [along]).expect("a family");
-    let limits = Limits {
+    let limits = BranchLimits {
         range,
         points: 4000,
     };
@@ -81,7 +81,7 @@ fn flips_and_folds_where_first_order_says(
             found.ends
         );
         assert!(
-            matches!(found.ends.1, End::Grazing),
+            matches!(found.ends.1, BranchEnd::Grazing),
             "{preload}: {:?}",
             found.ends
         );

@@ -3,8 +3,8 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::{Clock, Parameter, Ratios, Scene, Start, Stop};
+use softstop_dynamics::derivatives::{self, DifferentiatedFigure, OrbitDerivatives};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::slopes::{self, DifferentiatedFigure, Slopes};
 use softstop_dynamics::{Orbit, zone};
 use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
 use softstop_testing::{Meets, assert_near, cases, hertz, machines};
@@ -26,7 +26,7 @@ fn settled(scene: &Scene, start: Start) -> Option<Orbit> {
     })
 }
 
-fn figures(slopes: &Slopes) -> impl Iterator<Item = &DifferentiatedFigure> {
+fn figures(slopes: &OrbitDerivatives) -> impl Iterator<Item = &DifferentiatedFigure> {
     let strikes = slopes.impacts.iter();
     let strikes = strikes.flat_map(|strike| [&strike.time, &strike.velocity]);
     [
@@ -62,7 +62,7 @@ fn beside(
     if other.periods != orbit.periods || meets.crossings != kinds.crossings {
         return None;
     }
-    let slopes = slopes::differentiate_orbit(&other, &[]).ok()?;
+    let slopes = derivatives::differentiate_orbit(&other, &[]).ok()?;
     let invariants = [other.monodromy.trace(), other.monodromy.determinant()];
     let figures = figures(&slopes).map(|figure| figure.value);
     Some(figures.chain(invariants).collect())
@@ -83,7 +83,7 @@ proptest! {
         let meets = Meets::until(&scene, Start::from(orbit.state()), Clock::at_cycle(orbit.periods));
         let parameters: Vec<Parameter> = Parameter::ALL.into_iter().filter(|parameter| parameter.get(&scene).is_some()).collect();
         for parameter in parameters {
-            let Ok(slopes) = slopes::differentiate_orbit(&orbit, &[parameter]) else { continue };
+            let Ok(slopes) = derivatives::differentiate_orbit(&orbit, &[parameter]) else { continue };
             prop_assert!((slopes.max_position.value - orbit.max_position).abs() < SOLVED * (1.0 + orbit.max_position.abs()));
             let along = Vector2::new(slopes.position.by[0], slopes.velocity.by[0]);
             let width = WIDTH * parameter.get(&scene).expect("it has").abs().max(0.05);
@@ -95,7 +95,7 @@ proptest! {
             let (Some(far), Some(wide), Some(narrow)) = (central(3.0 * width), central(2.0 * width), central(width)) else {
                 continue
             };
-            let Ok(stability) = slopes::stability(&orbit, &[parameter]) else {
+            let Ok(stability) = derivatives::differentiate_stability(&orbit, &[parameter]) else {
                 continue;
             };
             let invariants = [&stability.trace, &stability.determinant];
@@ -119,12 +119,13 @@ proptest! {
 fn where_there_is_no_derivative_none_is_told() {
     let scene = Ratios::unloaded().scene().expect("valid");
     let orbit = softstop_dynamics::orbit::find(&scene).expect("an orbit");
-    let lacks = slopes::differentiate_orbit(&orbit, &[Parameter::Exponent]).expect_err("has none");
+    let lacks =
+        derivatives::differentiate_orbit(&orbit, &[Parameter::Exponent]).expect_err("has none");
     assert!(lacks.to_string().contains("stop.exponent"), "{lacks}");
     // At a fold the motion turns back.
     let zone = zone::hysteresis(&scene).expect("a zone");
     let fold = zone.orbit_of(&zone.high.point).expect("is there");
-    let turned = slopes::differentiate_orbit(&fold, &[Parameter::Clearance]);
+    let turned = derivatives::differentiate_orbit(&fold, &[Parameter::Clearance]);
     assert_eq!(turned, Err(OrbitError::NotIsolated));
     // A power law of exponent 1 is a spring, and becomes another law beside.
     let spring = hertz(7.0, 1.0, 0.0);
@@ -133,9 +134,9 @@ fn where_there_is_no_derivative_none_is_told() {
         ..scene.clone()
     };
     let orbit = softstop_dynamics::orbit::find(&spring).expect("an orbit");
-    assert!(slopes::differentiate_orbit(&orbit, &[Parameter::StopStiffness]).is_ok());
+    assert!(derivatives::differentiate_orbit(&orbit, &[Parameter::StopStiffness]).is_ok());
     let other =
-        slopes::differentiate_orbit(&orbit, &[Parameter::Exponent]).expect_err("another law");
+        derivatives::differentiate_orbit(&orbit, &[Parameter::Exponent]).expect_err("another law");
     assert!(other.to_string().contains("no derivative"), "{other}");
 }
 
@@ -157,7 +158,7 @@ fn after_chatter_derivatives_go_on() {
         Parameter::Frequency,
         Parameter::Restitution,
     ] {
-        let slopes = slopes::differentiate_orbit(&orbit, &[parameter]).expect("known");
+        let slopes = derivatives::differentiate_orbit(&orbit, &[parameter]).expect("known");
         let along = Vector2::new(slopes.position.by[0], slopes.velocity.by[0]);
         let value = parameter.get(&scene).expect("it has");
         let supplied = |shift: f64| {
@@ -165,7 +166,7 @@ fn after_chatter_derivatives_go_on() {
             parameter.set(&mut scene, value + shift);
             let orbit =
                 Orbit::find_periodic(&scene, orbit.state() + shift * along, 1).expect("near");
-            slopes::differentiate_orbit(&orbit, &[])
+            derivatives::differentiate_orbit(&orbit, &[])
                 .expect("known")
                 .supplied
                 .value

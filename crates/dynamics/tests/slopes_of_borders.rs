@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use softstop::{Parameter, Ratios, Scene};
-use softstop_dynamics::continuation::{Face, SpecialKind, TestFunction};
-use softstop_dynamics::slopes::{Border, BorderKind};
-use softstop_dynamics::{Continuation, Limits, ParameterFamily, orbit, zone};
+use softstop_dynamics::continuation::{SpecialKind, SwitchingSurface, TestFunction};
+use softstop_dynamics::derivatives::{Border, BorderKind};
+use softstop_dynamics::{BranchLimits, Continuation, ParameterFamily, orbit, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, rigid_stop};
 
@@ -70,7 +70,7 @@ fn borders(scene: &Scene) -> Vec<Border> {
         .filter(|parameter| parameter.get(scene).is_some())
         .collect();
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("valid");
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.8, 1.6),
         points: 2000,
     };
@@ -120,7 +120,7 @@ fn normals_are_those_of_borders_found_again() {
         let mut kinds = kinds.iter();
         kinds.any(|kind| matches!(kind, BorderKind::Motion(kind) if is(kind)))
     };
-    let touches = |face: Face| {
+    let touches = |face: SwitchingSurface| {
         let on = |kind: &BorderKind| matches!(kind, BorderKind::Motion(SpecialKind::Grazing(graze)) if graze.face == face);
         kinds.iter().any(on)
     };
@@ -131,8 +131,12 @@ fn normals_are_those_of_borders_found_again() {
         |kind| *kind == SpecialKind::Critical(TestFunction::Flip)
     ));
     assert!(
-        [Face::Clearance, Face::Stop, Face::Wall]
-            .into_iter()
-            .all(touches)
+        [
+            SwitchingSurface::Clearance,
+            SwitchingSurface::Stop,
+            SwitchingSurface::Wall
+        ]
+        .into_iter()
+        .all(touches)
     );
 }

@@ -7,8 +7,8 @@ use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use softstop::{Parameter, Piercing, Ratios, Scene};
 use softstop_dynamics::continuation::TestFunction;
+use softstop_dynamics::derivatives::{self, Border};
 use softstop_dynamics::nalgebra::Vector2;
-use softstop_dynamics::slopes::{self, Border};
 use softstop_dynamics::{Orbit, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{cases, rigid_stop, units};
@@ -46,8 +46,11 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
 }
 
 /// What a design is judged by: strength and time of its impact, X_m, lowest position, force, energy.
-fn figures(orbit: &Orbit, parameters: &[Parameter]) -> Option<Vec<slopes::DifferentiatedFigure>> {
-    let found = slopes::differentiate_orbit(orbit, parameters).ok()?;
+fn figures(
+    orbit: &Orbit,
+    parameters: &[Parameter],
+) -> Option<Vec<derivatives::DifferentiatedFigure>> {
+    let found = derivatives::differentiate_orbit(orbit, parameters).ok()?;
     let strike = found.impacts.into_iter().next()?;
     let figures = [
         strike.velocity,
@@ -121,7 +124,7 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
     let orbit = zone.orbit_at(share).ok()?;
     let own = |parameter: &Parameter| parameter.get(scene).is_some_and(|value| value != 0.0);
     let parameters: Vec<Parameter> = Parameter::ALL.into_iter().filter(own).collect();
-    let slopes = slopes::differentiate_orbit(&orbit, &parameters).expect("has derivatives");
+    let slopes = derivatives::differentiate_orbit(&orbit, &parameters).expect("has derivatives");
     let figures_here = figures(&orbit, &parameters).expect("has derivatives");
     let sizes: Vec<f64> = figures_here
         .iter()

@@ -8,10 +8,12 @@ use std::ops::ControlFlow;
 use crate::continuation::outgrown::Outgrown;
 use nalgebra::{Complex, Matrix2, Vector2};
 use softstop::{Below, Parameter, Release, Scene, Start, Stop};
-use softstop_dynamics::continuation::{End, SpecialKind};
+use softstop_dynamics::continuation::{BranchEnd, SpecialKind};
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::orbit::{StroboscopicMap, multipliers};
-use softstop_dynamics::{Continuation, CycleMetrics, Limits, Orbit, ParameterFamily, slopes, zone};
+use softstop_dynamics::{
+    BranchLimits, Continuation, CycleMetrics, Orbit, ParameterFamily, derivatives, zone,
+};
 use softstop_testing::assert_near;
 
 /// The orbit with one impact at each of two rigid stops at +-d, x(t + T/2) = -x(t) (Shaw 1985, J. Appl. Mech. 52): half a
@@ -153,7 +155,7 @@ fn a_branch_keeps_to_the_closed_form() {
     let exact = Symmetric::of(&scene, true);
     let (scene, state) = exact.begin(&scene);
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (1.6, 2.2),
         points: 500,
     };
@@ -205,7 +207,7 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
             Symmetric::of(&scene.at_frequency(from), true).begin(&scene.at_frequency(from));
         let family =
             ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
-        let limits = Limits { range, points: 500 };
+        let limits = BranchLimits { range, points: 500 };
         let go_on = |_: &_| ControlFlow::Continue(());
         let continuation = Continuation::new(&family, 1)
             .with_steps(0.05)
@@ -235,7 +237,7 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
         let asymmetric = continuation
             .branch_asymmetric(&found.point, &limits, go_on)
             .expect("a branch");
-        assert!(matches!(asymmetric.ends.0, End::Symmetric));
+        assert!(matches!(asymmetric.ends.0, BranchEnd::Symmetric));
         let outgrown = Outgrown(family.clone());
         let same = Continuation::new(&outgrown, 1).branch_asymmetric(&found.point, &limits, go_on);
         let same = same.expect("a branch");
@@ -266,7 +268,7 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
 fn asymmetric_branches_do_not_depend_on_the_drive_angle() {
     let scene = softstop::Machine::from_toml(include_str!("../../../docs/scenes/two-sided.toml"));
     let scene = scene.expect("a machine").scene.at_frequency(1.9);
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (1.2, 2.0),
         points: 500,
     };
@@ -301,7 +303,7 @@ fn orbits_change_with_the_stop_below_as_differences_say() {
         Parameter::BelowRestitution,
         Parameter::Clearance,
     ] {
-        let slopes = slopes::differentiate_orbit(&orbit, &[parameter]).expect("slopes");
+        let slopes = derivatives::differentiate_orbit(&orbit, &[parameter]).expect("slopes");
         let moved = |by: f64| {
             let mut moved = scene.clone();
             parameter.set(&mut moved, parameter.get(&scene).expect("it has it") + by);

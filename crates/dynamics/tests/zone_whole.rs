@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::{Excitation, Parameter, Ratios, Release, Scene, Stop};
-use softstop_dynamics::continuation::{Direction, Face, TestFunction};
+use softstop_dynamics::continuation::{Direction, SwitchingSurface, TestFunction};
+use softstop_dynamics::derivatives::Border;
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::{
     Loss, StableRange, ZoneKind, find_zones, hysteresis, loss_of_stability, single_impact,
     stable_ranges,
@@ -263,7 +263,7 @@ fn a_rigid_stop_behind_the_other_ends_a_zone() -> Result<(), Box<dyn std::error:
     for (scene, zone) in scenes.iter().zip(zones) {
         assert!(hysteresis(scene).is_err(), "clearance {}", scene.clearance);
         let zone = zone?;
-        let grazed = |loss: &Loss| *loss == Loss::Inner(Face::Wall);
+        let grazed = |loss: &Loss| *loss == Loss::Inner(SwitchingSurface::Wall);
         assert!(grazed(&zone.high.loss), "{:?}", zone.high.loss);
         let stable_ranges = stable_ranges(scene)?;
         let mut ends = stable_ranges.iter().filter(|it| grazed(&it.high.loss));

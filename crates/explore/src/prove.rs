@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use nalgebra::Vector2;
 use serde::Serialize;
 use softstop::{Machine, Parameter, Scene, UnitSystem};
-use softstop_dynamics::continuation::{Special, SpecialKind, TestFunction};
-use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, Regime};
+use softstop_dynamics::continuation::{SpecialKind, SpecialPoint, TestFunction};
+use softstop_dynamics::{BranchLimits, Continuation, Orbit, ParameterFamily, Regime};
 use softstop_prove::machine::Machine as Laws;
 use softstop_prove::motion::Kind;
 use softstop_prove::{Certificate, Claim, Interval, Touch};
@@ -138,12 +138,12 @@ fn near(state: Vector2<f64>, scene: &Scene, wanted: Option<Regime>) -> Result<Or
 }
 
 /// The special point of a kind on the branch of an orbit at the frequency nearest to that of its scene.
-fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<Special, Failure> {
+fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<SpecialPoint, Failure> {
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency])
         .map_err(|error| anyhow!(error))?;
     let own = scene.excitation.frequency;
     let ((low, high), points) = BRANCH;
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (low * own, high * own),
         points,
     };
@@ -153,7 +153,7 @@ fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<Special,
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
-    let away = |it: &Special| (it.point.parameter - own).abs();
+    let away = |it: &SpecialPoint| (it.point.parameter - own).abs();
     let specials = branch.specials.into_iter();
     let specials = specials.filter(|it| wanted.is(it.kind));
     let name = format!("{wanted:?}").to_lowercase();
@@ -174,14 +174,14 @@ impl Bifurcation {
 }
 
 /// What is to be proven of a special point.
-fn claim(scene: &Scene, special: &Special) -> Option<Claim> {
+fn claim(scene: &Scene, special: &SpecialPoint) -> Option<Claim> {
     match special.kind {
         SpecialKind::Critical(TestFunction::Fold) => Some(Claim::Fold),
         SpecialKind::Critical(TestFunction::Flip) => Some(Claim::Flip),
         SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => None,
         SpecialKind::Grazing(graze) => Some(Claim::Grazing(Touch {
             angle: graze.angle,
-            position: graze.face.face_position(scene)?,
+            position: graze.face.surface_position(scene)?,
         })),
     }
 }

@@ -15,7 +15,7 @@ use softstop_console::record::{Record, below};
 use softstop_console::report;
 use softstop_console::table::heading;
 use softstop_dynamics::Zone;
-use softstop_dynamics::continuation::Face;
+use softstop_dynamics::continuation::SwitchingSurface;
 use softstop_dynamics::zone::{
     Loss, StableRange, ZoneError, grazing_frequencies, hysteresis_and_stable_ranges,
 };
@@ -147,9 +147,9 @@ pub fn lost_by(loss: &Loss) -> String {
         Loss::Pitchfork => "pitchfork",
         Loss::Grazing => "grazing: its impact dies",
         Loss::AnotherImpact => "grazing: another impact comes up",
-        Loss::Inner(Face::Pierced) => "grazing where the strip is pierced",
-        Loss::Inner(Face::Wall) => "grazing of the rigid stop",
-        Loss::Inner(Face::Below) => "grazing of the stop below",
+        Loss::Inner(SwitchingSurface::Pierced) => "grazing where the strip is pierced",
+        Loss::Inner(SwitchingSurface::Wall) => "grazing of the rigid stop",
+        Loss::Inner(SwitchingSurface::Below) => "grazing of the stop below",
         Loss::Inner(_) => "grazing of the stop",
         Loss::Border(border) => return format!("border collision: {}", met(*border)),
         Loss::Range => "not followed farther",

@@ -8,7 +8,7 @@ use softstop::internals::budget;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::{self, grazing_frequencies};
-use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily, Zone, orbit};
+use softstop_dynamics::{Branch, BranchLimits, Continuation, ParameterFamily, Zone, orbit};
 
 use crate::answer::{Answer, Answered};
 use crate::machine::parameter;
@@ -146,7 +146,7 @@ impl Branches {
         state: Vector2<f64>,
     ) -> Option<Branch> {
         let family = ParameterFamily::new(machine.clone(), [along]).ok()?;
-        let limits = Limits {
+        let limits = BranchLimits {
             range: (self.from.min(value), self.to.max(value)),
             points: MOST_POINTS,
         };

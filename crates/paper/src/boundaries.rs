@@ -14,7 +14,7 @@ use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
     ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,
 };
-use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, StroboscopicMap};
+use softstop_dynamics::{BranchLimits, Continuation, Orbit, ParameterFamily, StroboscopicMap};
 
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -89,7 +89,7 @@ pub(super) fn branch(scene: Scene, range: (f64, f64), points: usize, step: f64) 
     let orbit = find(&scene).context("no z = 1 motion to start from")?;
     let frequency = scene.excitation.frequency;
     let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
-    let limits = Limits { range, points };
+    let limits = BranchLimits { range, points };
     let continuation = Continuation::new(&family, 1).with_steps(step)?;
     let branch = continuation.branch(frequency, orbit.state(), &limits, |_| interrupt::go_on());
     branch.context("the z = 1 motion cannot be followed")

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use softstop::{MotionError, Ratios, Scene};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
-use softstop_dynamics::{Chain, Exponents, Orbit, Step};
+use softstop_dynamics::{Chain, LyapunovExponents, Orbit, Step};
 
 use crate::diagram::{self, Part, WAYS, by_way, dots};
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -116,12 +116,12 @@ fn exponent(scene: &Scene, step: &Step, batch: u64) -> Result<(f64, f64), Motion
     {
         return Ok((of(&orbit)[2], 0.0));
     }
-    let (found, _) = Exponents::along_motion(&scene, step.end.into(), batch)?;
+    let (found, _) = LyapunovExponents::along_motion(&scene, step.end.into(), batch)?;
     Ok((found.per_second()[0], found.error / found.period))
 }
 
 fn of(orbit: &Orbit) -> Place {
-    let [exponent, _] = Exponents::of(orbit).per_second();
+    let [exponent, _] = LyapunovExponents::of(orbit).per_second();
     let eta = orbit.scene.excitation.frequency;
     [eta, orbit.before_impact_velocity(), exponent]
 }

@@ -7,7 +7,7 @@ use proptest::test_runner::TestRunner;
 use softstop::nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene, Start, Stop};
 use softstop_dynamics::continuation::{SpecialKind, TestFunction};
-use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, orbit};
+use softstop_dynamics::{BranchLimits, Continuation, Orbit, ParameterFamily, orbit};
 use softstop_prove::arcs::Enclosed;
 use softstop_prove::motion::Motion;
 use softstop_prove::{Certificate, Claim, Interval, ProofError, Touch};
@@ -60,7 +60,7 @@ fn bifurcations_are_where_continuation_finds_them() {
     for ratios in [Ratios::unloaded(), Ratios::loaded()] {
         let (scene, orbit) = point(ratios);
         let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a family");
-        let limits = Limits {
+        let limits = BranchLimits {
             range: (0.9, 1.7),
             points: 2000,
         };
@@ -72,7 +72,7 @@ fn bifurcations_are_where_continuation_finds_them() {
                 SpecialKind::Critical(TestFunction::Flip) => Claim::Flip,
                 SpecialKind::Grazing(graze) => Claim::Grazing(Touch {
                     angle: graze.angle,
-                    position: graze.face.face_position(&scene).expect("a face"),
+                    position: graze.face.surface_position(&scene).expect("a face"),
                 }),
                 SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => {
                     continue;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
-use softstop_dynamics::Exponents;
+use softstop_dynamics::LyapunovExponents;
 
 use crate::batch::ends;
 use crate::errors::of_scene;
@@ -46,16 +46,16 @@ pub fn exponents<'py>(
                 true => Err(Failure::Interrupted),
                 false => Ok(()),
             };
-            let found = Exponents::along_motion_with_monitor(&scene, state, batch, ask);
+            let found = LyapunovExponents::along_motion_with_monitor(&scene, state, batch, ask);
             progress.more(1);
             Ok(found?.0)
         };
-        let found: Vec<Result<Exponents, Failure>> =
+        let found: Vec<Result<LyapunovExponents, Failure>> =
             (0..rows.len()).into_par_iter().map(along).collect();
         Ok(found)
     })?;
     let found = found.map_err(|error| of_scene(&error))?;
-    let column = |value: &dyn Fn(&Exponents) -> f64| {
+    let column = |value: &dyn Fn(&LyapunovExponents) -> f64| {
         let value = |it: &Result<_, _>| it.as_ref().map_or(f64::NAN, value);
         let values: Vec<f64> = found.iter().map(value).collect();
         values.into_pyarray(py).unbind()

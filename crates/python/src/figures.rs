@@ -7,7 +7,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::zone::find_with_monitor;
-use softstop_dynamics::{CycleMetrics, Orbit, slopes};
+use softstop_dynamics::{CycleMetrics, Orbit, derivatives};
 use softstop_optimize::robust::rates;
 
 use crate::errors::{MachineError, SoftstopError, of_failure, of_machine};
@@ -124,7 +124,7 @@ fn derivatives(
     let mut parameters: Vec<Parameter> = directions.iter().flatten().map(|(it, _)| *it).collect();
     parameters.sort();
     parameters.dedup();
-    let slopes = slopes::differentiate_orbit(orbit, &parameters);
+    let slopes = derivatives::differentiate_orbit(orbit, &parameters);
     let slopes = slopes.map_err(|error| SoftstopError::new_err(error.to_string()))?;
     let row = |figure: &Figure| {
         let none =

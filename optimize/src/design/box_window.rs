@@ -6,7 +6,7 @@ use crate::order::sort_rising;
 use crate::spread::{critical_normal, free_normal};
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::TestFunction;
-use softstop_dynamics::slopes::Border;
+use softstop_dynamics::derivatives::Border;
 use softstop_dynamics::zone::{Loss, grazing_frequencies};
 use softstop_dynamics::{BranchPoint, Zone};
 

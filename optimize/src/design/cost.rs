@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use softstop::internals::{Differentiated, Expression, chain_rule_product};
 use softstop::{Machine, Parameter};
-use softstop_dynamics::slopes::Slopes;
+use softstop_dynamics::derivatives::OrbitDerivatives;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::figure::Figure;
@@ -71,7 +71,7 @@ impl Term {
     /// Its derivatives by the parameters of slopes, those of figures being given by `rates`.
     fn by(
         self,
-        slopes: &Slopes,
+        slopes: &OrbitDerivatives,
         orbit: &Orbit,
         rates: impl Fn(Figure) -> Option<Vec<f64>>,
     ) -> Option<Vec<f64>> {
@@ -116,7 +116,7 @@ impl Cost {
     /// Its derivatives by the parameters of slopes, by the chain rule on those of figures; none if a figure has none.
     pub fn rates(
         &self,
-        slopes: &Slopes,
+        slopes: &OrbitDerivatives,
         (orbit, stroke): (&Orbit, &CycleMetrics),
         rates: impl Fn(Figure) -> Option<Vec<f64>>,
     ) -> Option<Vec<f64>> {
@@ -133,7 +133,12 @@ impl Cost {
 }
 
 /// Derivatives by parameters, with one more by one of them.
-pub(crate) fn plus(slopes: &Slopes, mut by: Vec<f64>, parameter: Parameter, more: f64) -> Vec<f64> {
+pub(crate) fn plus(
+    slopes: &OrbitDerivatives,
+    mut by: Vec<f64>,
+    parameter: Parameter,
+    more: f64,
+) -> Vec<f64> {
     let mut pairs = slopes.parameters.iter().zip(&mut by);
     if let Some((_, by)) = pairs.find(|(own, _)| **own == parameter) {
         *by += more;

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use softstop::Parameter;
-use softstop_dynamics::{CycleMetrics, slopes};
+use softstop_dynamics::{CycleMetrics, derivatives};
 
 use super::Design;
 use super::constraint::Limit;
@@ -265,7 +265,7 @@ fn slope_at(
         let rows = Rows::at(about, at)?;
         let mut parameters = rows.parameters().to_vec();
         parameters.push(Parameter::Frequency);
-        let slopes = slopes::differentiate_orbit(&orbit, &parameters).ok()?;
+        let slopes = derivatives::differentiate_orbit(&orbit, &parameters).ok()?;
         let stroke = CycleMetrics::of(&orbit).ok()?;
         let by = rates((figure, spread.cost()), &slopes, (&orbit, &stroke))?;
         Some(rows.chain(&parameters, &by))

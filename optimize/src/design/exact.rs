@@ -4,7 +4,7 @@
 use softstop::{Machine, Parameter};
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::{Direction, TestFunction};
-use softstop_dynamics::slopes::{self, Border, Slopes};
+use softstop_dynamics::derivatives::{self, Border, OrbitDerivatives};
 use softstop_dynamics::zone::{ZoneEnd, loss_of_stability};
 
 use super::Design;
@@ -20,7 +20,7 @@ pub(super) struct Linearization<'a> {
     pub(super) problem: &'a Problem,
     pub(super) at: &'a At<'a>,
     pub(super) point: &'a Design,
-    slopes: Slopes,
+    slopes: OrbitDerivatives,
     /// By each coordinate, what changes of the parameters of `slopes` but the last, the frequency, while that stays, in SI
     /// units.
     directions: Vec<Vec<f64>>,
@@ -102,7 +102,7 @@ impl<'a> Linearization<'a> {
             problem,
             at,
             point,
-            slopes: slopes::differentiate_orbit(&point.orbit, &parameters).ok()?,
+            slopes: derivatives::differentiate_orbit(&point.orbit, &parameters).ok()?,
             directions: rows,
             along,
             frequency,

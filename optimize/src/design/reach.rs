@@ -5,7 +5,7 @@ use crate::spread::{Reached, along};
 use softstop::Scene;
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::TestFunction;
-use softstop_dynamics::slopes::Border;
+use softstop_dynamics::derivatives::Border;
 use softstop_dynamics::zone::Loss;
 
 use super::Design;

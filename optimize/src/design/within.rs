@@ -1,7 +1,7 @@
 //! How machines within the tolerances of a point of the search change with its coordinates.
 
 use softstop::{Machine, Parameter};
-use softstop_dynamics::slopes::Border;
+use softstop_dynamics::derivatives::Border;
 
 use super::differences::{difference, machine_differences};
 use super::exact::Linearization;

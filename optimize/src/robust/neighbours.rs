@@ -3,8 +3,8 @@
 use crate::spread::{in_coordinates, motion_of, varied};
 use nalgebra::Vector2;
 use softstop_dynamics::Orbit;
+use softstop_dynamics::derivatives;
 use softstop_dynamics::figure::Figure;
-use softstop_dynamics::slopes;
 
 use super::Tolerances;
 use super::meeting::dot;
@@ -25,7 +25,7 @@ pub(crate) struct Neighbours<'a> {
 impl<'a> Neighbours<'a> {
     pub fn new(spread: &'a Tolerances, nominal: &'a Orbit) -> Self {
         let centre = vec![0.0; spread.dimensions()];
-        let slopes = slopes::differentiate_orbit(nominal, &varied(spread, &centre)).ok();
+        let slopes = derivatives::differentiate_orbit(nominal, &varied(spread, &centre)).ok();
         let state = slopes.map(|slopes| {
             [&slopes.position, &slopes.velocity]
                 .map(|it| in_coordinates(spread, &centre, &slopes.parameters, &it.by))

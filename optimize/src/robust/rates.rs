@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use softstop::Parameter;
+use softstop_dynamics::derivatives::OrbitDerivatives;
 use softstop_dynamics::figure::Figure;
-use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use crate::design::cost::{Cost, plus};
@@ -16,7 +16,7 @@ const SAME: f64 = 1e-9;
 /// that have exact ones.
 pub fn rates(
     (figure, cost): (Figure, Option<&Cost>),
-    slopes: &Slopes,
+    slopes: &OrbitDerivatives,
     (orbit, stroke): (&Orbit, &CycleMetrics),
 ) -> Option<Vec<f64>> {
     let scene = &orbit.scene;

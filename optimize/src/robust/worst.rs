@@ -2,11 +2,11 @@
 
 use crate::order::sort_rising;
 use crate::spread::{in_coordinates, varied};
+use softstop_dynamics::derivatives;
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
-use softstop_dynamics::slopes;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::Tolerances;
@@ -133,7 +133,7 @@ impl Search<'_> {
         };
         let exact = || {
             let spread = self.neighbours.spread;
-            let slopes = slopes::differentiate_orbit(orbit, &varied(spread, at)).ok()?;
+            let slopes = derivatives::differentiate_orbit(orbit, &varied(spread, at)).ok()?;
             let stroke = CycleMetrics::of(orbit).ok()?;
             let by = rates((self.figure, spread.cost()), &slopes, (orbit, &stroke))?;
             Some(in_coordinates(spread, at, &slopes.parameters, &by))

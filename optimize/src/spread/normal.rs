@@ -3,8 +3,8 @@
 use super::Tolerances;
 use softstop::{Parameter, Scene};
 use softstop_dynamics::continuation::{BranchPoint, TestFunction};
+use softstop_dynamics::derivatives::Border;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::ZoneError;
 
 /// Change of a coordinate over which the machine's parameters are differenced: exact where they are linear in it, or

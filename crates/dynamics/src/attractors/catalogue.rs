@@ -2,7 +2,7 @@
 
 use super::Certainty;
 use crate::ensemble::MemberStatus;
-use crate::orbit::recurrence::{find_return, motion_size, state_distance};
+use crate::orbit::recurrence::{find_recurrence, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::{NEAR, SAME};
 use softstop::{CheckedScene, Start};
@@ -56,7 +56,7 @@ impl AttractorCatalogue {
         if let Some(orbit) = self.find_reached(log) {
             return Ok(MemberStatus::Arrived(orbit));
         }
-        let Some(found) = find_return(self.drive_frequency(), log) else {
+        let Some(found) = find_recurrence(self.drive_frequency(), log) else {
             return Ok(MemberStatus::Wandering);
         };
         if self.is_at_rest(last)? {

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use crate::ensemble::Ensemble;
 use crate::extremes::extremes;
-use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
+use crate::orbit::{LyapunovExponents, OrbitError, StroboscopicMap};
 use softstop::internals::narrow_root;
 use softstop::{CheckedScene, Crossing, Observer, Start};
 
@@ -15,7 +15,7 @@ pub struct Chaos {
     /// A state of it at drive angle phi.
     pub state: Start,
     /// Its Lyapunov exponents.
-    pub exponents: Exponents,
+    pub exponents: LyapunovExponents,
     /// Mean number of drive periods before it ends, if it is transient.
     pub lifetime: Option<f64>,
     /// Starts of the region that came to it; those that it has let go count where they ended.
@@ -48,7 +48,7 @@ impl Chaos {
         scene: &CheckedScene,
         ensemble: &Ensemble<'_>,
         (begin, state): (Start, Start),
-        exponents: Exponents,
+        exponents: LyapunovExponents,
     ) -> Result<Self, OrbitError> {
         let counted = MAX_COUNTED_PERIODS.min(exponents.periods);
         let map = StroboscopicMap::new(scene, counted);

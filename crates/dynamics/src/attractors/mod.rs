@@ -20,7 +20,7 @@ pub use search::{
 };
 
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit};
+use crate::orbit::{LyapunovExponents, Orbit};
 use crate::wilson_interval::wilson_interval;
 use softstop::{MotionError, Start};
 
@@ -53,7 +53,7 @@ pub struct Attractor {
     /// What chaos is like, if the motion is chaotic and was watched.
     pub chaos: Option<Chaos>,
     /// Its exponents, if they were computed: those of an orbit follow from its multipliers.
-    pub exponents: Option<Exponents>,
+    pub exponents: Option<LyapunovExponents>,
     /// Number of starts that were on it in the end.
     pub starts: usize,
     /// Share of all starts that were on it: a measure of its basin.

@@ -12,7 +12,7 @@ use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::motion::MotionKind;
-use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
+use crate::orbit::{LYAPUNOV_BATCH_PERIODS, LyapunovExponents, Orbit, OrbitError};
 use crate::parallel;
 use softstop::Start;
 
@@ -140,7 +140,7 @@ impl BasinSurvey<'_> {
     /// Follows the cells that wander on where they settle slowly: where the largest exponent of one of three of them is negative
     /// beyond doubt, for as long as it takes to gain [`SLOW_DECAY_LOG`]. The orbits that the scouts come to hold the others. The
     /// exponents of the first one, if it was not followed on.
-    pub(super) fn settle_slow_cells(&mut self) -> Result<Option<Exponents>, OrbitError> {
+    pub(super) fn settle_slow_cells(&mut self) -> Result<Option<LyapunovExponents>, OrbitError> {
         let cells = 0..self.outcomes.len();
         let wandering = cells.filter(|cell| self.outcomes[*cell] == MemberStatus::Wandering);
         let wandering: Vec<usize> = wandering.collect();
@@ -181,16 +181,23 @@ impl BasinSurvey<'_> {
     }
 
     /// The exponents along the motion of a cell from its latest state on.
-    fn exponents_of_cell(&self, cell: usize) -> Result<Exponents, OrbitError> {
+    fn exponents_of_cell(&self, cell: usize) -> Result<LyapunovExponents, OrbitError> {
         let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
-        let (exponents, _) =
-            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
+        let (exponents, _) = LyapunovExponents::along_motion_with_monitor(
+            &self.scene,
+            state,
+            LYAPUNOV_BATCH_PERIODS.0,
+            ask,
+        )?;
         Ok(exponents)
     }
 
     /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others; with the
     /// exponents of the first cell that wanders, if they are known.
-    pub(super) fn into_basins(self, first: Option<Exponents>) -> Result<Basins, OrbitError> {
+    pub(super) fn into_basins(
+        self,
+        first: Option<LyapunovExponents>,
+    ) -> Result<Basins, OrbitError> {
         let mut basins = Basins {
             grid: *self.grid,
             classes: Vec::new(),
@@ -231,8 +238,8 @@ impl BasinSurvey<'_> {
     /// The kind of motion of the cells that have not returned, and the exponents of the first one, computed unless they are known.
     fn classify_wandering_cells(
         &self,
-        known: Option<Exponents>,
-    ) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
+        known: Option<LyapunovExponents>,
+    ) -> Result<(MotionKind, Option<LyapunovExponents>), OrbitError> {
         let mut outcomes = self.outcomes.iter();
         let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
             return Ok((MotionKind::Unsettled, None));

@@ -10,7 +10,7 @@ use super::follow::{Continuation, SectionChange};
 use super::grazing_test::GrazingTest;
 use super::locate::{locate_zero, passes_place};
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, End, HalfBranch, Limits, Special, SpecialKind};
+use super::point::{BranchEnd, BranchLimits, BranchPoint, HalfBranch, SpecialKind, SpecialPoint};
 use super::stepper::Stepper;
 use super::test_function::TestFunction;
 use crate::direction::Direction;
@@ -26,20 +26,20 @@ pub struct Branch {
     /// Points, special ones among them.
     pub points: Vec<BranchPoint>,
     /// Special points, in the same order.
-    pub specials: Vec<Special>,
+    pub specials: Vec<SpecialPoint>,
     /// Why it ends at its first point and at its last.
-    pub ends: (End, End),
+    pub ends: (BranchEnd, BranchEnd),
 }
 
 impl Branch {
     /// The special point of the branch at this point, if it is one.
-    pub fn special_at(&self, point: &BranchPoint) -> Option<&Special> {
+    pub fn special_at(&self, point: &BranchPoint) -> Option<&SpecialPoint> {
         self.specials.iter().find(|special| special.is_at(point))
     }
 
     /// The points of the branch at which a test vanishes, in their order.
     pub fn critical_points(&self, test: TestFunction) -> impl Iterator<Item = &BranchPoint> {
-        let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);
+        let own = move |special: &&SpecialPoint| special.kind == SpecialKind::Critical(test);
         let own = self.specials.iter().filter(own);
         own.map(|special| &special.point)
     }
@@ -56,7 +56,7 @@ impl<'a> Continuation<'a> {
         &self,
         parameter: f64,
         state: Vector2<f64>,
-        limits: &Limits,
+        limits: &BranchLimits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let start = self.correct_start(parameter, state)?;
@@ -72,7 +72,7 @@ impl<'a> Continuation<'a> {
             &mut watch,
         )?;
         let down = match up.end {
-            End::Closed => HalfBranch::empty(End::Closed),
+            BranchEnd::Closed => HalfBranch::empty(BranchEnd::Closed),
             _ => self.follow_half(
                 start.clone(),
                 &Self::direction_vector(Direction::Down),
@@ -122,10 +122,10 @@ impl<'a> Continuation<'a> {
         &self,
         start: Node<PeriodMap>,
         along: &DVector<f64>,
-        limits: &Limits,
+        limits: &BranchLimits,
         watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<HalfBranch, OrbitError> {
-        let mut way = HalfBranch::empty(End::Points);
+        let mut way = HalfBranch::empty(BranchEnd::Points);
         let origin = self.point_at(&start)?;
         self.follow_sections((start, along), |continuation, begin| {
             continuation.follow_section(&mut way, begin, &origin, limits, watch)
@@ -139,7 +139,7 @@ impl<'a> Continuation<'a> {
         way: &mut HalfBranch,
         (start, along): (Node<PeriodMap>, &DVector<f64>),
         origin: &BranchPoint,
-        limits: &Limits,
+        limits: &BranchLimits,
         watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Option<SectionChange<'a>>, OrbitError> {
         let origin = self.place_of(origin)?;
@@ -173,14 +173,14 @@ impl<'a> Continuation<'a> {
                         .points
                         .last()
                         .is_some_and(|point| watch(point).is_break());
-                    if let Some(end) = end.or(stopped.then_some(End::Stopped)) {
+                    if let Some(end) = end.or(stopped.then_some(BranchEnd::Stopped)) {
                         way.end = end;
                         return Ok(None);
                     }
                 }
                 Err(error) => {
                     if watch(&self.point_at(&stepper.node)?).is_break() {
-                        way.end = End::Stopped;
+                        way.end = BranchEnd::Stopped;
                         return Ok(None);
                     }
                     if way.turned_at != Some(way.points.len())
@@ -229,10 +229,10 @@ impl<'a> Continuation<'a> {
         &self,
         way: &mut HalfBranch,
         (from, to): Ends<'_, PeriodMap>,
-        mut specials: Vec<Special>,
+        mut specials: Vec<SpecialPoint>,
         origin: &DVector<f64>,
-        limits: &Limits,
-    ) -> Result<Option<End>, OrbitError> {
+        limits: &BranchLimits,
+    ) -> Result<Option<BranchEnd>, OrbitError> {
         let closes =
             way.points.len() >= MIN_LOOP_POINTS && passes_place(&self.shooting, (from, to), origin);
         let bound = self.bound_passed((from, to), limits);
@@ -241,7 +241,7 @@ impl<'a> Continuation<'a> {
             Some(_) => None,
         };
         let (last, end) = match (bound, merged) {
-            (Some((_, true)), _) => return Ok(Some(End::Range)),
+            (Some((_, true)), _) => return Ok(Some(BranchEnd::Range)),
             (Some((bound, false)), _) => {
                 let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
                 let (node, _) = locate_zero(&self.shooting, (from, to), test)?;
@@ -257,7 +257,7 @@ impl<'a> Continuation<'a> {
                     parameter,
                     ..self.point_at(&node)?
                 };
-                (last, Some(End::Range))
+                (last, Some(BranchEnd::Range))
             }
             (None, Some((point, end))) => {
                 // Beyond, the orbits are those before, half a period later, or have no gap.
@@ -275,7 +275,7 @@ impl<'a> Continuation<'a> {
                 });
                 (point, Some(end))
             }
-            (None, None) => (self.point_at(to)?, closes.then_some(End::Closed)),
+            (None, None) => (self.point_at(to)?, closes.then_some(BranchEnd::Closed)),
         };
         let (low, high) = limits.range;
         specials.retain(|special| (low..=high).contains(&special.point.parameter));

@@ -13,7 +13,7 @@ use super::branch::Branch;
 use super::follow::{Continuation, is_one_sense};
 use super::locate::{along_chord, is_beside};
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, End, HalfBranch, Limits, Special, SpecialKind};
+use super::point::{BranchEnd, BranchLimits, BranchPoint, HalfBranch, SpecialKind, SpecialPoint};
 use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
 use super::test_function::{TestFunction, null_vector};
@@ -31,11 +31,11 @@ impl Continuation<'_> {
     pub fn double_period(
         &self,
         flip: &BranchPoint,
-        limits: &Limits,
+        limits: &BranchLimits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let doubled = self.over_periods(2 * self.shooting.periods);
-        doubled.branch_from(flip, (-1.0, 2, End::Merged), limits, &mut watch)
+        doubled.branch_from(flip, (-1.0, 2, BranchEnd::Merged), limits, &mut watch)
     }
 
     /// The branch along the eigenvector of a critical multiplier of a point, of orbits with so many times its impacts, and why
@@ -43,8 +43,8 @@ impl Continuation<'_> {
     pub(super) fn branch_from(
         &self,
         point: &BranchPoint,
-        (multiplier, times, end): (f64, usize, End),
-        limits: &Limits,
+        (multiplier, times, end): (f64, usize, BranchEnd),
+        limits: &BranchLimits,
         watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let (start, along) = self.branch_off(point, (multiplier, times))?;
@@ -107,7 +107,7 @@ impl Continuation<'_> {
     pub(super) fn pitchfork_on_step(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-    ) -> Result<Option<(f64, Special)>, OrbitError> {
+    ) -> Result<Option<(f64, SpecialPoint)>, OrbitError> {
         let half = |node| self.shooting.symmetric_half_period(node);
         let (Some(a), Some(b)) = (half(from), half(to)) else {
             return Ok(None);
@@ -123,7 +123,7 @@ impl Continuation<'_> {
             return Err(OrbitError::LOST);
         }
         let (kind, point) = (SpecialKind::Pitchfork, self.point_at(&node)?);
-        Ok(Some((share, Special { kind, point })))
+        Ok(Some((share, SpecialPoint { kind, point })))
     }
 
     /// The node of the pitchfork near a place.
@@ -141,10 +141,15 @@ impl Continuation<'_> {
     pub fn branch_asymmetric(
         &self,
         pitchfork: &BranchPoint,
-        limits: &Limits,
+        limits: &BranchLimits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        self.branch_from(pitchfork, (1.0, 1, End::Symmetric), limits, &mut watch)
+        self.branch_from(
+            pitchfork,
+            (1.0, 1, BranchEnd::Symmetric),
+            limits,
+            &mut watch,
+        )
     }
 }
 

@@ -5,7 +5,7 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::{Equations, Node, correct};
 use super::period_map::PeriodMap;
-use super::point::Graze;
+use super::point::GrazingTouch;
 use super::section_orbit::SectionPoint;
 use super::section_system::SectionSystem;
 use super::sequence::Sequence;
@@ -51,7 +51,7 @@ pub enum CodimensionTwo {
     GeneralisedFlip,
     /// Curves of folds and flips end on a curve of grazing: a weak impact has no bearing on the next (Simpson and Ghosh,
     /// arXiv 2602.22797).
-    ResonantGrazing(Graze),
+    ResonantGrazing(GrazingTouch),
 }
 
 impl CodimensionTwo {

@@ -5,7 +5,7 @@ use softstop::{Parameter, Scene, Stop};
 
 /// A face: a surface at which a scene's law of force changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
+pub enum SwitchingSurface {
     /// The clearance: an impact.
     Clearance,
     /// The end of phase I, where the strip is pierced.
@@ -18,16 +18,16 @@ pub enum Face {
     Below,
 }
 
-/// Arrays of one value for each face are indexed by `face as usize`: [`Face::ALL`] is in the order of the variants.
+/// Arrays of one value for each face are indexed by `face as usize`: [`SwitchingSurface::ALL`] is in the order of the variants.
 const _: () = {
     let mut index = 0;
-    while index < Face::ALL.len() {
-        assert!(Face::ALL[index] as usize == index);
+    while index < SwitchingSurface::ALL.len() {
+        assert!(SwitchingSurface::ALL[index] as usize == index);
         index += 1;
     }
 };
 
-impl Face {
+impl SwitchingSurface {
     /// All faces, in the order of the variants.
     pub const ALL: [Self; 5] = [
         Self::Clearance,
@@ -38,7 +38,7 @@ impl Face {
     ];
 
     /// Position of the face in m, if the scene has it.
-    pub fn face_position(self, scene: &Scene) -> Option<f64> {
+    pub fn surface_position(self, scene: &Scene) -> Option<f64> {
         match self {
             Self::Clearance => Some(scene.clearance),
             Self::Pierced => scene
@@ -102,7 +102,7 @@ impl Face {
     pub(crate) fn at_position(scene: &Scene, position: f64) -> Option<Self> {
         let near = ROUNDING * (scene.scales().length + position.abs());
         let stands = |face: &Self| {
-            face.face_position(scene)
+            face.surface_position(scene)
                 .is_some_and(|level| (level - position).abs() < near)
         };
         Self::ALL.into_iter().find(stands)
@@ -117,7 +117,7 @@ pub(crate) struct NearTouch {
     /// Velocity in m/s of a crossing, or distance in m of a turning point from the face ahead.
     pub amount: f64,
     /// The face.
-    pub face: Face,
+    pub face: SwitchingSurface,
     /// Dry friction turns its sign there.
     pub reverses: bool,
 }

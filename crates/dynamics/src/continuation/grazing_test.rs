@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::arclength::{Node, correct};
-use super::face::{Face, NearTouch};
+use super::face::{NearTouch, SwitchingSurface};
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, Graze, Special, SpecialKind};
+use super::point::{BranchPoint, GrazingTouch, SpecialKind, SpecialPoint};
 use super::section_orbit::SectionPoint;
 use super::section_system::SectionSystem;
 use super::shooting::Shooting;
@@ -24,7 +24,7 @@ pub(crate) struct GrazingTest {
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
     /// Which faces an orbit can graze smoothly.
-    gentle: [bool; Face::ALL.len()],
+    gentle: [bool; SwitchingSurface::ALL.len()],
     parameter: f64,
     /// True if the orbit is its own mirror image half its period later: touches come in pairs.
     is_symmetric: bool,
@@ -36,7 +36,7 @@ pub(crate) struct GrazingTest {
     /// What the distances of both touches to a smooth grazing have lost per unit of arclength on the step before.
     losses: [f64; 2],
     /// Grazing orbits near it, once they are asked for.
-    grazes: OnceCell<Vec<Special>>,
+    grazes: OnceCell<Vec<SpecialPoint>>,
 }
 
 impl GrazingTest {
@@ -51,7 +51,7 @@ impl GrazingTest {
             .map_or(0, |touch| crossings_with(motion, touch.time));
         Self {
             dying: round.slowest,
-            gentle: Face::ALL.map(|face| face.is_gentle(scene)),
+            gentle: SwitchingSurface::ALL.map(|face| face.is_gentle(scene)),
             rising: nearest_turn(motion, scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
@@ -107,17 +107,17 @@ impl GrazingTest {
     }
 
     /// True if an orbit can graze a face smoothly.
-    pub fn is_gentle(&self, face: Face) -> bool {
+    pub fn is_gentle(&self, face: SwitchingSurface) -> bool {
         self.gentle[face as usize]
     }
 
     /// The grazing orbits that Newton's method reaches from the tested one, computed once.
-    pub fn grazing_orbits(&self, shooting: &Shooting<'_, 1>) -> &[Special] {
+    pub fn grazing_orbits(&self, shooting: &Shooting<'_, 1>) -> &[SpecialPoint] {
         self.grazes.get_or_init(|| self.find_grazings(shooting))
     }
 
     /// Finds the grazing orbits that Newton's method reaches from both touches.
-    fn find_grazings(&self, shooting: &Shooting<'_, 1>) -> Vec<Special> {
+    fn find_grazings(&self, shooting: &Shooting<'_, 1>) -> Vec<SpecialPoint> {
         let touches = if self.is_symmetric { 2 } else { 1 };
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(touches * taken));
@@ -146,9 +146,9 @@ impl GrazingTest {
         touch: &NearTouch,
         crossings: usize,
         dies: bool,
-    ) -> Result<Special, OrbitError> {
+    ) -> Result<SpecialPoint, OrbitError> {
         let (phase, frequency) = self.drive;
-        let near = Graze {
+        let near = GrazingTouch {
             angle: phase + frequency * touch.time,
             impacts: 0,
             dies,
@@ -165,10 +165,10 @@ impl GrazingTest {
 /// another one's touch and from a parameter; its own angle is counted on from `phase`.
 pub(crate) fn find_grazing(
     (family, periods): (&dyn Family, u64),
-    near: &Graze,
+    near: &GrazingTouch,
     phase: f64,
     parameter: f64,
-) -> Result<Special, OrbitError> {
+) -> Result<SpecialPoint, OrbitError> {
     let touching = SectionSystem::of_graze(near, (family, periods));
     let guess = touching.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
@@ -183,12 +183,12 @@ pub(crate) fn find_grazing(
     if is_cut {
         return Err(OrbitError::LOST);
     }
-    let graze = Graze {
+    let graze = GrazingTouch {
         angle: phase + (node.at[0] - phase).rem_euclid(TAU * periods as f64),
         impacts: impacts.len(),
         ..*near
     };
-    Ok(Special {
+    Ok(SpecialPoint {
         kind: SpecialKind::Grazing(graze),
         point: BranchPoint {
             parameter,
@@ -202,9 +202,9 @@ pub(crate) fn find_grazing(
 
 /// The turning point of a motion that comes nearest to a surface of the scene ahead of it, if any turns before one.
 fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearTouch> {
-    let faces = Face::ALL.into_iter();
-    let faces = faces.filter_map(|face| Some((face, face.face_position(scene)?)));
-    let faces: Vec<(Face, f64)> = faces.collect();
+    let faces = SwitchingSurface::ALL.into_iter();
+    let faces = faces.filter_map(|face| Some((face, face.surface_position(scene)?)));
+    let faces: Vec<(SwitchingSurface, f64)> = faces.collect();
     let on_arcs = motion.observed_arcs().flat_map(|(arc, elapsed)| {
         let back = arc.course.departure.velocity > 0.0;
         let turns = turning_points(arc.course, elapsed, back);

@@ -110,7 +110,7 @@ pub(super) fn along_chord(
 }
 
 /// Distance of a point from the chord between its neighbours, as a share of it, up to which it is between them.
-pub(crate) const OFF_CHORD: f64 = 0.2;
+pub(crate) const MAX_CHORD_DISTANCE: f64 = 0.2;
 
 /// True if a step of a curve passes a place: near enough, and no other piece that lies beside it.
 pub(super) fn passes_place<E: Equations>(
@@ -121,7 +121,7 @@ pub(super) fn passes_place<E: Equations>(
     let way = &to.at - &from.at;
     let (share, off) = along_chord((&from.at, &way), place);
     (0.0..=1.0).contains(&share)
-        && off < OFF_CHORD * way.norm()
+        && off < MAX_CHORD_DISTANCE * way.norm()
         && CurveCubic::between(equations, (from, to))
             .and_then(|cubic| cubic.node_at(share))
             .is_ok_and(|node| (place - &node.at).norm() < NEAR * way.norm())

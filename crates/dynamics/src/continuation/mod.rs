@@ -13,10 +13,10 @@
 //!
 //! use nalgebra::Vector2;
 //! use softstop::{Parameter, Ratios};
-//! use softstop_dynamics::{Continuation, Limits, ParameterFamily};
+//! use softstop_dynamics::{BranchLimits, Continuation, ParameterFamily};
 //!
 //! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
-//! let limits = Limits { range: (1.1, 1.5), points: 500 };
+//! let limits = BranchLimits { range: (1.1, 1.5), points: 500 };
 //! let state = Vector2::new(6.9, 9.5);
 //! let branch =
 //!     Continuation::new(&family, 1).branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
@@ -55,12 +55,14 @@ pub use crate::direction::Direction;
 pub use branch::Branch;
 pub use codimension_two::{CodimensionTwo, CurvePoint};
 pub use curve::{Curve, CurveEnd, CurveLimits};
-pub use face::Face;
+pub use face::SwitchingSurface;
 pub use follow::Continuation;
 pub(crate) use grazing_test::find_grazing;
-pub(crate) use locate::OFF_CHORD;
+pub(crate) use locate::MAX_CHORD_DISTANCE;
 pub use parameter_family::ParameterFamily;
-pub use point::{BorderCollision, BranchPoint, End, Graze, Limits, Special, SpecialKind};
+pub use point::{
+    BorderCollision, BranchEnd, BranchLimits, BranchPoint, GrazingTouch, SpecialKind, SpecialPoint,
+};
 pub(crate) use section_orbit::LastArc;
 pub use settings::ContinuationSettings;
 pub(crate) use shooting::derivatives_by;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::face::Face;
+use super::face::SwitchingSurface;
 use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 
@@ -49,7 +49,7 @@ pub enum SpecialKind {
     /// A bifurcation that the monodromy matrix tells: fold (the paper's SN), flip (PD), Neimark-Sacker.
     Critical(TestFunction),
     /// The orbit grazes the stop (the paper's G).
-    Grazing(Graze),
+    Grazing(GrazingTouch),
     /// An orbit between two stops that are alike ceases to be symmetric: two that are not come out of it.
     Pitchfork,
 }
@@ -63,7 +63,7 @@ impl From<TestFunction> for SpecialKind {
 /// The touch of an orbit that grazes a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Graze {
+pub struct GrazingTouch {
     /// Drive angle in rad of the touch, counted on over the drive periods from the phase at time 0.
     pub angle: f64,
     /// Impacts of the orbit, the touch left out.
@@ -72,7 +72,7 @@ pub struct Graze {
     /// (p - 1)/n. Otherwise a turning point reaches the surface, and p/n becomes (p + 1)/n.
     pub dies: bool,
     /// The surface that is touched; but for the clearance, the number of impacts stays.
-    pub face: Face,
+    pub face: SwitchingSurface,
     /// True if the orbit is its own mirror image half its period later, and touches both of two stops that are alike: the face
     /// is one of them.
     pub is_symmetric: bool,
@@ -107,14 +107,14 @@ impl SpecialKind {
 /// A special point of a branch.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Special {
+pub struct SpecialPoint {
     /// The kind of special point.
     pub kind: SpecialKind,
     /// The point of the branch.
     pub point: BranchPoint,
 }
 
-impl Special {
+impl SpecialPoint {
     /// True if the special point is this point of the branch.
     pub(crate) fn is_at(&self, point: &BranchPoint) -> bool {
         self.point.parameter == point.parameter && self.point.state() == point.state()
@@ -123,7 +123,7 @@ impl Special {
 
 /// Limits of a branch: how far it is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct BranchLimits {
     /// Lowest and highest value of the parameter.
     pub range: (f64, f64),
     /// Points in each direction.
@@ -132,7 +132,7 @@ pub struct Limits {
 
 /// Why a branch ends.
 #[derive(Debug, Clone)]
-pub enum End {
+pub enum BranchEnd {
     /// The parameter reaches the end of its range; the last point is there.
     Range,
     /// There are as many points as asked for.
@@ -170,26 +170,26 @@ pub enum BorderCollision {
 /// Half a branch: its points in one direction, without its start.
 pub(super) struct HalfBranch {
     pub(super) points: Vec<BranchPoint>,
-    pub(super) specials: Vec<Special>,
-    pub(super) end: End,
+    pub(super) specials: Vec<SpecialPoint>,
+    pub(super) end: BranchEnd,
     /// Points at the last turn of the section: it is not turned twice at one place.
     pub(super) turned_at: Option<usize>,
 }
 
 impl HalfBranch {
     /// Ends half a branch in a grazing; false if there is none.
-    pub(super) fn end_in_grazing(&mut self, special: Option<Special>) -> bool {
+    pub(super) fn end_in_grazing(&mut self, special: Option<SpecialPoint>) -> bool {
         let Some(special) = special else {
             return false;
         };
         self.points.push(special.point.clone());
         self.specials.push(special);
-        self.end = End::Grazing;
+        self.end = BranchEnd::Grazing;
         true
     }
 
     /// Half a branch without points, and why it ends.
-    pub(super) fn empty(end: End) -> Self {
+    pub(super) fn empty(end: BranchEnd) -> Self {
         Self {
             points: Vec::new(),
             specials: Vec::new(),

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use super::arclength::{Ends, Node};
 use super::follow::Continuation;
-use super::locate::{OFF_CHORD, along_chord, locate_zero, solve_zero};
+use super::locate::{MAX_CHORD_DISTANCE, along_chord, locate_zero, solve_zero};
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, Limits};
+use super::point::{BranchLimits, BranchPoint};
 use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::ROUNDING;
@@ -104,7 +104,7 @@ impl Continuation<'_> {
     /// The point between two neighbours, followed from one of them where no guess between them leads to it.
     fn walk_to(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
         [from, to].into_iter().find_map(|end| {
-            let limits = Limits {
+            let limits = BranchLimits {
                 range: (parameter.min(end.parameter), parameter.max(end.parameter)),
                 points: MAX_WALK_POINTS,
             };
@@ -125,6 +125,6 @@ impl Continuation<'_> {
         let (begin, way) = (place(from), place(to) - place(from));
         let (along, off) = along_chord((&begin, &way), &place(point));
         let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
-        same_side && (0.0..=1.0).contains(&along) && off < OFF_CHORD * way.norm()
+        same_side && (0.0..=1.0).contains(&along) && off < MAX_CHORD_DISTANCE * way.norm()
     }
 }

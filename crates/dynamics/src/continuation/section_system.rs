@@ -14,9 +14,9 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
-use super::face::Face;
+use super::face::SwitchingSurface;
 use super::period_map::{carry_through, half_way, state_after};
-use super::point::Graze;
+use super::point::GrazingTouch;
 use super::section_orbit::{LastArc, NO_CROSSING, SectionPoint};
 use super::shooting::{end_derivatives, is_symmetric, round_off};
 use super::test_function::TestFunction;
@@ -46,7 +46,7 @@ pub(crate) struct SectionSystem<'a, const N: usize> {
     /// Crossings of an orbit between its begin and its last arc, a touch left out.
     crossings: usize,
     /// The surface.
-    pub face: Face,
+    pub face: SwitchingSurface,
     /// True of orbits that are their own mirror images: they come back to the mirror image of the surface after half of their
     /// periods.
     is_symmetric: bool,
@@ -55,7 +55,7 @@ pub(crate) struct SectionSystem<'a, const N: usize> {
 
 impl<'a, const N: usize> SectionSystem<'a, N> {
     /// The grazing orbits of a family over a number of drive periods that touch as another one does.
-    pub fn of_graze(graze: &Graze, (family, periods): (&'a dyn Family<N>, u64)) -> Self {
+    pub fn of_graze(graze: &GrazingTouch, (family, periods): (&'a dyn Family<N>, u64)) -> Self {
         Self {
             family,
             periods,
@@ -89,7 +89,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         let Some(entry) = slowest.filter(|_| motion.rests().next().is_none()) else {
             return Ok(None);
         };
-        let face = Face::at_position(&scene, entry.position);
+        let face = SwitchingSurface::at_position(&scene, entry.position);
         let Some(face) = face.filter(|face| face.is_steep(&scene)) else {
             return Ok(None);
         };
@@ -180,7 +180,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         if self.is_symmetric && !is_symmetric(&scene) {
             return Err(OrbitError::NotAlike);
         }
-        let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
+        let position = self.face.surface_position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))
     }
 
@@ -206,8 +206,8 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
     }
 
     /// The touch of a grazing orbit, as of a crossing that dies.
-    pub fn graze_at(&self, node: &Node<SectionPoint>) -> Graze {
-        Graze {
+    pub fn graze_at(&self, node: &Node<SectionPoint>) -> GrazingTouch {
+        GrazingTouch {
             angle: node.at[0],
             impacts: node.here.point.impacts.len(),
             dies: true,
@@ -293,7 +293,7 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
             let parameters = self.parameters(place);
             Some(self.scene_at(place[0], parameters).ok()?.0)
         };
-        let position = self.face.face_position(&motion.scene)?;
+        let position = self.face.surface_position(&motion.scene)?;
         let orbit = (&**motion, Vector2::new(position, 0.0), true);
         let ends = end_derivatives(orbit, (place, 0..place.len()), scene_at)?;
         let drifts = ends

@@ -1,6 +1,6 @@
 //! The sequence of crossings of an orbit: what it crosses, and how often.
 
-use super::face::{Face, NearTouch};
+use super::face::{NearTouch, SwitchingSurface};
 use super::point::BorderCollision;
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
@@ -14,8 +14,8 @@ pub(crate) struct Sequence {
     pub impacts: usize,
     /// Crossings of surfaces, impacts on a rigid stop among them.
     pub surfaces: usize,
-    /// Crossings of each [`Face`], in the order of [`Face::ALL`].
-    pub faces: [usize; Face::ALL.len()],
+    /// Crossings of each [`SwitchingSurface`], in the order of [`SwitchingSurface::ALL`].
+    pub faces: [usize; SwitchingSurface::ALL.len()],
     /// Turns under dry friction.
     pub reversals: usize,
     /// Rows of bounces that end in rest.
@@ -74,13 +74,13 @@ impl Sequence {
 /// rest the first alone, as how many of them are told one by one is the simulation's choice.
 pub(crate) struct CountedCrossings<'a> {
     trajectory: &'a Trajectory,
-    all: Vec<(&'a Crossing, Option<Face>)>,
+    all: Vec<(&'a Crossing, Option<SwitchingSurface>)>,
 }
 
 impl<'a> CountedCrossings<'a> {
     /// The counted crossings of a motion of a scene.
     pub fn of_motion(scene: &Scene, trajectory: &'a Trajectory) -> Self {
-        let mut all: Vec<(&Crossing, Option<Face>)> = Vec::new();
+        let mut all: Vec<(&Crossing, Option<SwitchingSurface>)> = Vec::new();
         // Which one is the first of the present row of bounces, and how fast the next can be at most.
         let mut row: Option<(usize, f64)> = None;
         for crossing in trajectory.crossings() {
@@ -98,7 +98,7 @@ impl<'a> CountedCrossings<'a> {
                 let left = MAX_BOUNCE_RATIO * crossing.velocity_after.abs();
                 row = Some((first, speed.min(left)));
             }
-            let face = is_passage(crossing).then(|| Face::at_position(scene, position));
+            let face = is_passage(crossing).then(|| SwitchingSurface::at_position(scene, position));
             all.push((crossing, face.flatten()));
         }
         Self { trajectory, all }

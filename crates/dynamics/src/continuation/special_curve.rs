@@ -9,7 +9,7 @@ use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
 use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
 use super::follow::Continuation;
-use super::point::{Graze, Limits, SpecialKind};
+use super::point::{BranchLimits, GrazingTouch, SpecialKind};
 use super::section_system::SectionSystem;
 use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
@@ -178,7 +178,7 @@ pub fn switch_curves(
 /// The curve of folds or flips that begins in resonant grazing.
 fn from_grazing(
     family: &dyn Family<2>,
-    (periods, graze, parameters): (u64, &Graze, [f64; 2]),
+    (periods, graze, parameters): (u64, &GrazingTouch, [f64; 2]),
     test: TestFunction,
     region: &CurveLimits,
     watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
@@ -232,7 +232,7 @@ fn fold_of_doubled(
     let along = Continuation::new(&fixed, periods)
         .with_steps(region.settings.largest_step)
         .ok()?;
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (parameter - within, parameter + within),
         points: region.points,
     };

@@ -5,12 +5,12 @@ use std::cell::RefCell;
 use nalgebra::DVector;
 
 use super::arclength::{Ends, Equations, Node};
-use super::face::Face;
+use super::face::SwitchingSurface;
 use super::follow::Continuation;
 use super::grazing_test::GrazingTest;
 use super::locate::{CurveCubic, along_chord, locate_zero};
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, End, Graze, Limits, Special, SpecialKind};
+use super::point::{BranchEnd, BranchLimits, BranchPoint, GrazingTouch, SpecialKind, SpecialPoint};
 use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR};
@@ -26,7 +26,7 @@ impl Continuation<'_> {
     pub(super) fn bound_passed(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-        limits: &Limits,
+        limits: &BranchLimits,
     ) -> Option<(f64, bool)> {
         let (low, high) = limits.range;
         let [before, now] = [from, to].map(|node| self.shooting.parameters(&node.at)[0]);
@@ -39,7 +39,7 @@ impl Continuation<'_> {
     pub(super) fn bound_at(
         &self,
         node: &Node<PeriodMap>,
-        limits: &Limits,
+        limits: &BranchLimits,
     ) -> Option<Node<PeriodMap>> {
         let (low, high) = limits.range;
         let state = self.shooting.state_at(&node.at);
@@ -57,7 +57,7 @@ impl Continuation<'_> {
     pub(super) fn specials_on_step(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-    ) -> Result<Vec<Special>, OrbitError> {
+    ) -> Result<Vec<SpecialPoint>, OrbitError> {
         let mut found = Vec::new();
         let (a, b) = (&from.here.point, &to.here.point);
         for test in TestFunction::ALL {
@@ -82,18 +82,18 @@ impl Continuation<'_> {
         &self,
         ends: Ends<'_, PeriodMap>,
         test: TestFunction,
-    ) -> Result<(f64, Special), OrbitError> {
+    ) -> Result<(f64, SpecialPoint), OrbitError> {
         let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
         let (node, share) = locate_zero(&self.shooting, ends, value)?;
         let (kind, point) = (SpecialKind::Critical(test), self.point_at(&node)?);
-        Ok((share, Special { kind, point }))
+        Ok((share, SpecialPoint { kind, point }))
     }
 
     /// The two flips of a step on which a multiplier passes -1 and comes back.
     fn flips_there_and_back(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-    ) -> Result<Vec<(f64, Special)>, OrbitError> {
+    ) -> Result<Vec<(f64, SpecialPoint)>, OrbitError> {
         let Some((share, middle)) = self.node_beyond_flips((from, to))? else {
             return Ok(Vec::new());
         };
@@ -143,19 +143,19 @@ impl Continuation<'_> {
     fn grazes_on_step(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-    ) -> Result<Vec<(f64, Special)>, OrbitError> {
+    ) -> Result<Vec<(f64, SpecialPoint)>, OrbitError> {
         let sequences = [from, to].map(|node| node.here.point.sequence);
         let [a, b] = sequences.map(|sequence| sequence.crossing_count());
         let [before, after] = sequences.map(|sequence| (sequence.faces, sequence.reversals));
         if a == b && before == after {
             return Ok(Vec::new());
         }
-        let touches_of_faces = Face::ALL.map(|face| {
+        let touches_of_faces = SwitchingSurface::ALL.map(|face| {
             let [a, b] = [before, after].map(|(faces, _)| faces[face as usize]);
             a.abs_diff(b).div_ceil(MAX_TOUCH_CROSSINGS)
         });
         let touches: usize = touches_of_faces.iter().sum();
-        let is_whole = |graze: &Graze| {
+        let is_whole = |graze: &GrazingTouch| {
             let own = match graze.is_symmetric {
                 true => touches,
                 false => touches_of_faces[graze.face as usize],
@@ -187,10 +187,10 @@ impl Continuation<'_> {
         &self,
         (from, to): Ends<'_, PeriodMap>,
         beyond: f64,
-        is_whole: impl Fn(&Graze) -> bool,
-    ) -> Result<(Vec<(f64, Special)>, bool), OrbitError> {
+        is_whole: impl Fn(&GrazingTouch) -> bool,
+    ) -> Result<(Vec<(f64, SpecialPoint)>, bool), OrbitError> {
         let way = &to.at - &from.at;
-        let mut found: Vec<(f64, Special)> = Vec::new();
+        let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
         let mut faces = Vec::new();
         for node in [from, to] {
             for special in GrazingTest::of_node(&self.shooting, node).grazing_orbits(&self.shooting)
@@ -205,7 +205,7 @@ impl Continuation<'_> {
                     continue;
                 }
                 graze.dies = from.here.point.impacts.len() > graze.impacts;
-                let special = Special {
+                let special = SpecialPoint {
                     kind: SpecialKind::Grazing(graze),
                     ..special.clone()
                 };
@@ -230,7 +230,7 @@ impl Continuation<'_> {
     pub(super) fn merging_point(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-    ) -> Result<Option<(BranchPoint, End)>, OrbitError> {
+    ) -> Result<Option<(BranchPoint, BranchEnd)>, OrbitError> {
         let periods = self.shooting.periods;
         let is_even = periods.is_multiple_of(2);
         let (Some(a), Some(b)) = (self.merging_gap(from), self.merging_gap(to)) else {
@@ -247,7 +247,7 @@ impl Continuation<'_> {
         if !is_even {
             let node = self.pitchfork(&at).ok().filter(|it| is_near(&it.at));
             let point = node.and_then(|node| self.point_at(&node).ok());
-            return Ok(point.map(|point| (point, End::Symmetric)));
+            return Ok(point.map(|point| (point, BranchEnd::Symmetric)));
         }
         let continuation = self.over_periods(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
@@ -268,7 +268,7 @@ impl Continuation<'_> {
             }
             // So it does on the orbit without the touch.
             return match node.here.point.sequence == from.here.point.sequence {
-                true => Ok(Some((self.point_at(&node)?, End::Merged))),
+                true => Ok(Some((self.point_at(&node)?, BranchEnd::Merged))),
                 false => Err(OrbitError::LOST),
             };
         };
@@ -277,7 +277,7 @@ impl Continuation<'_> {
             monodromy: flip.monodromy.squared(),
             ..flip
         };
-        Ok(Some((twice, End::Merged)))
+        Ok(Some((twice, BranchEnd::Merged)))
     }
 
     /// Scaled gap that closes where an orbit merges: from a state to that after half the periods, or to its mirror image; none

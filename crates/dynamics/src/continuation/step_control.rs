@@ -10,7 +10,9 @@ use super::arclength::{Ends, Equations, Evaluation, Node, correct, curve_tangent
 use super::follow::{Continuation, same_orientation};
 use super::grazing_test::GrazingTest;
 use super::period_map::PeriodMap;
-use super::point::{BorderCollision, End, HalfBranch, Limits, Special, SpecialKind};
+use super::point::{
+    BorderCollision, BranchEnd, BranchLimits, HalfBranch, SpecialKind, SpecialPoint,
+};
 use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
 use super::test_function::TestFunction;
@@ -36,14 +38,14 @@ impl Continuation<'_> {
         way: &mut HalfBranch,
         stepper: &Stepper<'_, Shooting<'_, 1>>,
         grazing_test: &GrazingTest,
-        limits: &Limits,
+        limits: &BranchLimits,
         error: OrbitError,
     ) {
         // It begins right beside such an orbit, too.
         let may_merge = self.shooting.periods.is_multiple_of(2) && !way.points.is_empty();
         let gap = self.merging_gap(&stepper.node).filter(|_| may_merge);
         if gap.is_some_and(|gap| gap.norm() < SAME) {
-            way.end = End::Merged;
+            way.end = BranchEnd::Merged;
             return;
         }
         let reach = self.settings.newton_reach;
@@ -54,9 +56,9 @@ impl Continuation<'_> {
             way.end = match self.point_at(&node) {
                 Ok(point) => {
                     way.points.push(point);
-                    End::Range
+                    BranchEnd::Range
                 }
-                Err(error) => End::Lost(error),
+                Err(error) => BranchEnd::Lost(error),
             };
             return;
         }
@@ -64,13 +66,13 @@ impl Continuation<'_> {
             .dies_within(self.settings.border_distance)
             .then_some(BorderCollision::Surface);
         way.end = match self.border_ahead(stepper, &error).or(dies) {
-            Some(border) => End::Border(border),
+            Some(border) => BranchEnd::Border(border),
             None if self.shooting.growth(&stepper.node.here.point.monodromy) * DIFFERENCE_WIDTH
                 > 1.0 =>
             {
-                End::Unstable
+                BranchEnd::Unstable
             }
-            None => End::Lost(error),
+            None => BranchEnd::Lost(error),
         };
     }
 
@@ -157,14 +159,14 @@ impl Continuation<'_> {
         &self,
         stepper: &Stepper<'_, Shooting<'_, 1>>,
         grazing_test: &GrazingTest,
-    ) -> Option<Special> {
+    ) -> Option<SpecialPoint> {
         if stepper.step > self.settings.doubtful_step {
             return None;
         }
         let round = &stepper.node.here.point;
         let never_rests = round.sequence.rests == 0 && round.sequence.holds == 0;
         let turns_unstable = never_rests && round.monodromy.is_stable();
-        let ends = |special: &Special| match special.kind {
+        let ends = |special: &SpecialPoint| match special.kind {
             SpecialKind::Grazing(graze) => {
                 let goes_on = grazing_test.is_gentle(graze.face)
                     || graze.dies && turns_unstable
@@ -181,7 +183,7 @@ impl Continuation<'_> {
     /// flipped orbit may come back through both. Motions beside the grazing orbit tell, as the fold may lie beyond it.
     fn folds_or_flips_before(
         &self,
-        special: &Special,
+        special: &SpecialPoint,
         stepper: &Stepper<'_, Shooting<'_, 1>>,
     ) -> bool {
         let Ok(at) = self.place_of(&special.point) else {
@@ -206,8 +208,8 @@ impl Continuation<'_> {
         reach: f64,
         stepper: &Stepper<'_, Shooting<'_, 1>>,
         grazing_test: &GrazingTest,
-    ) -> Option<Special> {
-        let is_ahead = |special: &&Special| {
+    ) -> Option<SpecialPoint> {
+        let is_ahead = |special: &&SpecialPoint| {
             let Ok(at) = self.place_of(&special.point) else {
                 return false;
             };
@@ -253,7 +255,7 @@ impl Continuation<'_> {
     pub(super) fn specials_of_corner(
         &self,
         (from, to): Ends<'_, PeriodMap>,
-    ) -> Result<Vec<Special>, OrbitError> {
+    ) -> Result<Vec<SpecialPoint>, OrbitError> {
         let (a, b) = (&from.here.point.monodromy, &to.here.point.monodromy);
         let mut found = Vec::new();
         for test in TestFunction::ALL
@@ -261,7 +263,7 @@ impl Continuation<'_> {
             .filter(|test| test.passes_zero(a, b))
         {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
-            found.push(Special { kind, point });
+            found.push(SpecialPoint { kind, point });
         }
         let (touches, _) = self.grazes_of_ends((from, to), CORNER_REACH, |_| false)?;
         found.extend(touches.into_iter().map(|(_, special)| special));

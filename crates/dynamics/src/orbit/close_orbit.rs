@@ -75,7 +75,7 @@ impl MultiSegmentShooting {
             velocity: state.y,
             impacts: impacts.iter().map(touch).collect(),
             rests: Vec::new(),
-            max_position: map.max_position(state)?.max(self.face.face_position()),
+            max_position: map.max_position(state)?.max(self.face.surface_position()),
             monodromy: Monodromy::from_factors(&factors),
             damping_integral: lost + last.course.flow.damping() * (self.span() - touched),
         })

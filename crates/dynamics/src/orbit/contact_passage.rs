@@ -61,7 +61,7 @@ impl ContactFace {
     }
 
     /// Position of the face in m.
-    pub(super) fn face_position(&self) -> f64 {
+    pub(super) fn surface_position(&self) -> f64 {
         self.surface.position
     }
 
@@ -69,14 +69,14 @@ impl ContactFace {
     fn acceleration_at_face(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
         let forcing = self.phases.amplitude * self.clock.drive(at).cos;
         self.phases
-            .acceleration(phase, self.face_position(), velocity, forcing)
+            .acceleration(phase, self.surface_position(), velocity, forcing)
     }
 
     /// The free motion from the face, at an instant with a velocity in m/s, as if there were no stop.
     fn free_course(&self, at: Instant, velocity: f64) -> ArcSolution {
         let free = &self.phases[PhaseId::FREE];
         let departure = Departure {
-            position: self.face_position(),
+            position: self.surface_position(),
             velocity,
             drive: self.clock.drive(at),
             forcing: Polynomial::linear(free.law.force / self.phases.mass, 0.0),
@@ -87,7 +87,7 @@ impl ContactFace {
 
     /// A motion that begins at the face, at an instant with a velocity in m/s.
     pub(super) fn release(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
-        let start = Start::new(self.face_position(), velocity);
+        let start = Start::new(self.surface_position(), velocity);
         Motion::new(&self.scene, at, start)
     }
 
@@ -140,7 +140,7 @@ impl ContactFace {
             return Some(passage(phase, T::default(), at, course));
         }
         let mut contact = ContactRecorder {
-            position: self.face_position(),
+            position: self.surface_position(),
             gathered: T::default(),
             found: None,
             effort: Effort::windows(MAX_CONTACT_WORK),
@@ -171,7 +171,7 @@ impl ContactFace {
         saltation(&Crossing {
             instant: at,
             kind: passage.kind,
-            position: self.face_position(),
+            position: self.surface_position(),
             velocity,
             velocity_after: passage.velocity_after,
             acceleration_before: self.acceleration_at_face(PhaseId::FREE, at, velocity),

@@ -6,7 +6,7 @@ use super::{Orbit, StroboscopicMap};
 use softstop::{MotionError, Scene};
 
 /// Drive periods in each batch of Lyapunov exponents at first and at most.
-pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
+pub(crate) const LYAPUNOV_BATCH_PERIODS: (u64, u64) = (100, 1600);
 /// Exponent of a growth, or decay, of differences that is for good: rounding to the size of the motion is 36.
 const LASTING_GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
@@ -21,7 +21,7 @@ const SIGN_ERRORS: f64 = 3.0;
 /// time adds a third exponent, 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Exponents {
+pub struct LyapunovExponents {
     /// Exponents of the map, per drive period, the larger first; minus infinity where sticking wipes out differences.
     pub per_period: [f64; 2],
     /// Half-width of the 95 % interval of the larger exponent, by batch means; 0 on a periodic motion.
@@ -32,7 +32,7 @@ pub struct Exponents {
     pub period: f64,
 }
 
-impl Exponents {
+impl LyapunovExponents {
     /// The Lyapunov exponents of the motion from a state over 32 batches of `batch` drive periods, and its end.
     ///
     /// # Errors
@@ -45,7 +45,7 @@ impl Exponents {
         Self::along_motion_with_monitor(scene, state, batch, || Ok(()))
     }
 
-    /// The Lyapunov exponents as by [`Exponents::along_motion`], unless `ask`, asked each period, fails.
+    /// The Lyapunov exponents as by [`LyapunovExponents::along_motion`], unless `ask`, asked each period, fails.
     ///
     /// # Errors
     /// That of `ask`, or [`MotionError`] if the motion cannot be computed.
@@ -70,14 +70,14 @@ impl Exponents {
     /// [`MotionError`] if the motion cannot be computed.
     pub fn differences_grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
         let mut walk = TangentMotion::new(scene, state)?;
-        let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH_PERIODS.0);
+        let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), LYAPUNOV_BATCH_PERIODS.0);
         loop {
             walk.add_batches(&mut sums, batch, || Ok::<(), MotionError>(()))?;
             let found = Self::of_batches(&sums, batch, scene.period());
             let largest = found.per_period[0];
             let is_clear = largest.abs() > SIGN_ERRORS * found.error;
             let is_much = largest.abs() * found.periods as f64 > LASTING_GROWTH;
-            if (is_clear && is_much) || batch >= BATCH_PERIODS.1 {
+            if (is_clear && is_much) || batch >= LYAPUNOV_BATCH_PERIODS.1 {
                 return Ok(found.is_positive());
             }
             let pairs = sums.chunks(2);

@@ -3,7 +3,7 @@
 use std::slice::from_ref;
 
 use super::fixed_points::FixedPoints;
-use super::impact_lattice::all_single;
+use super::impact_lattice::single_impact_orbits;
 use super::trials::Trials;
 use super::{Orbit, OrbitError};
 use crate::monitor::{Monitor, unmonitored};
@@ -29,12 +29,12 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
 pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
-    find_with_singles(scene, None, monitor)
+    find_with_known_orbits(scene, None, monitor)
 }
 
 /// The motion that [`find_with_monitor`] finds, with the z = 1 orbits that a lattice shows, those with the hardest impacts
 /// last, searched unless they are known.
-pub(crate) fn find_with_singles(
+pub(crate) fn find_with_known_orbits(
     scene: &Scene,
     known: Option<Vec<Orbit>>,
     monitor: Monitor<'_>,
@@ -42,7 +42,7 @@ pub(crate) fn find_with_singles(
     let settled = search_all(from_ref(scene), usize::MAX, monitor).remove(0);
     let mut all = match known {
         Some(known) => known,
-        None => all_single(scene, monitor)?,
+        None => single_impact_orbits(scene, monitor)?,
     };
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {

@@ -6,7 +6,7 @@ use super::stroboscopic_map::find_new_fixed_point;
 use super::trials::{
     Candidate, NEAR_RETURN, Trial, least_moved, scaled_distance, settled_candidates,
 };
-use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
+use super::{MapApplication, Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::monitor::Monitor;
 use crate::tolerance::{NEAR, SAME, STABLE_REACH};
 use softstop::CheckedScene;
@@ -146,7 +146,7 @@ impl FixedPoints {
     fn search_from_state(&mut self, state: Vector2<f64>) {
         let found = find_new_fixed_point(&self.map, state, |state| self.is_known(state));
         let scales = self.map.scene().scales();
-        let steepness = |passage: &Passage| scales.jacobian(&passage.monodromy).norm();
+        let steepness = |passage: &MapApplication| scales.jacobian(&passage.monodromy).norm();
         let orbit = match found {
             Ok(None) => return,
             Ok(Some((state, passage))) if NEAR * steepness(&passage) <= 1.0 => {

@@ -36,15 +36,18 @@ const MAX_SINGLE_IMPACT_ORBITS: usize = 100;
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is none; [`OrbitError::Stopped`].
-pub(crate) fn all_single(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Orbit>, OrbitError> {
+pub(crate) fn single_impact_orbits(
+    scene: &Scene,
+    monitor: Monitor<'_>,
+) -> Result<Vec<Orbit>, OrbitError> {
     Ok(scan_lattice(&scene.check()?, monitor)?.map_or(Vec::new(), |singles| singles.found))
 }
 
 /// All z = 1 orbits of a scene, after those that near misses lead to within a share of its frequency.
 ///
 /// # Errors
-/// As [`all_single`].
-pub(crate) fn singles_about(
+/// As [`single_impact_orbits`].
+pub(crate) fn single_impact_orbits_about_frequency(
     scene: &CheckedScene,
     share: f64,
     monitor: Monitor<'_>,
@@ -60,7 +63,10 @@ pub(crate) fn singles_about(
 }
 
 /// The z = 1 orbits that Newton's method leads to from an impact (s, m/s), first to one, then, deflated, to others.
-pub(crate) fn singles_near(scene: &CheckedScene, impact: (f64, f64)) -> Vec<Orbit> {
+pub(crate) fn single_impact_orbits_near_impact(
+    scene: &CheckedScene,
+    impact: (f64, f64),
+) -> Vec<Orbit> {
     SingleImpactSearch::new(scene).map_or(Vec::new(), |mut singles| {
         singles
             .search_from(impact, &unmonitored)

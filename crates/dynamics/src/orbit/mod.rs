@@ -8,7 +8,7 @@ mod exponents;
 mod find;
 mod fixed_points;
 mod free_frequency;
-mod harder_single;
+mod harder_single_impact_orbit;
 mod impact_lattice;
 mod monodromy;
 mod multi_segment_shooting;
@@ -21,18 +21,20 @@ mod stroboscopic_map;
 mod trials;
 
 pub use error::OrbitError;
-pub(crate) use exponents::BATCH_PERIODS;
-pub use exponents::Exponents;
+pub(crate) use exponents::LYAPUNOV_BATCH_PERIODS;
+pub use exponents::LyapunovExponents;
 pub use find::{find, find_with_monitor};
-pub(crate) use find::{find_batch, find_with_singles};
-pub(crate) use harder_single::harder_single;
-pub(crate) use impact_lattice::{singles_about, singles_near};
+pub(crate) use find::{find_batch, find_with_known_orbits};
+pub(crate) use harder_single_impact_orbit::harder_single_impact_orbit;
+pub(crate) use impact_lattice::{
+    single_impact_orbits_about_frequency, single_impact_orbits_near_impact,
+};
 pub use monodromy::Monodromy;
 pub use pattern::{ImpactCount, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
 pub(crate) use smallest_period::smallest_period;
-pub use stroboscopic_map::{Passage, StroboscopicMap, find_fixed_point};
+pub use stroboscopic_map::{MapApplication, StroboscopicMap, find_fixed_point};
 
 use nalgebra::{Complex, Matrix2};
 

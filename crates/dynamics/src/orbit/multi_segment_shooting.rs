@@ -171,7 +171,7 @@ impl MultiSegmentShooting {
 
     /// What a state at the face is off by where an impact of a velocity should be: position and velocity, scaled.
     fn scaled_gap(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
-        let gap = Vector2::new(position - self.face.face_position(), velocity - expected);
+        let gap = Vector2::new(position - self.face.surface_position(), velocity - expected);
         self.scales.state(&gap)
     }
 
@@ -180,7 +180,7 @@ impl MultiSegmentShooting {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = &self.scales;
-        let state = self.face.face_position().abs() / scales.length + fastest / scales.speed();
+        let state = self.face.surface_position().abs() / scales.length + fastest / scales.speed();
         let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
         let columns = evaluation.jacobian.column_iter().zip(units);
         let entries =

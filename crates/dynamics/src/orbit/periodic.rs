@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::stroboscopic_map::find_fixed_point;
-use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
+use super::{ImpactPattern, MapApplication, Monodromy, OrbitError, Regime, StroboscopicMap};
 use crate::tolerance::{NEAR, NEAR_GRAZING, ROUNDING, ROUNDING_SHARE};
 use softstop::internals::turning_points;
 use softstop::{CheckedScene, ImpactEvent, Instant, MotionError, PhaseKind, Scene, Trajectory};
@@ -147,7 +147,7 @@ impl Orbit {
     }
 
     /// The orbit through a fixed point of the map over its own period that is already known.
-    pub(crate) fn from_map(periods: u64, state: Vector2<f64>, passage: Passage) -> Self {
+    pub(crate) fn from_map(periods: u64, state: Vector2<f64>, passage: MapApplication) -> Self {
         Self {
             periods,
             position: state.x,

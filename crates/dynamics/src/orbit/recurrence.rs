@@ -4,11 +4,11 @@ use crate::tolerance::ROUNDING;
 use softstop::Start;
 
 /// Distance within which a state has returned unless it is said otherwise, in units of the motion's size.
-pub(crate) const RETURN_DISTANCE: f64 = 1e-4;
+pub(crate) const RECURRENCE_DISTANCE: f64 = 1e-4;
 
 /// The return of a row of stroboscopic states: after how many drive periods, and how closely.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Return {
+pub(crate) struct Recurrence {
     /// Drive periods after which the states return.
     pub periods: usize,
     /// The largest distance between states so many periods apart, in units of the motion's size.
@@ -37,12 +37,16 @@ pub(crate) fn motion_size<'a>(frequency: f64, states: impl IntoIterator<Item = &
 }
 
 /// The return of a row of states: after the least number of periods for which all of its first half return.
-pub(crate) fn find_return(frequency: f64, states: &[Start]) -> Option<Return> {
-    find_return_within(frequency, states, RETURN_DISTANCE)
+pub(crate) fn find_recurrence(frequency: f64, states: &[Start]) -> Option<Recurrence> {
+    find_recurrence_within(frequency, states, RECURRENCE_DISTANCE)
 }
 
-/// The return of a row of states as by [`find_return`], with another distance, in units of the motion's size.
-pub(crate) fn find_return_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
+/// The return of a row of states as by [`find_recurrence`], with another distance, in units of the motion's size.
+pub(crate) fn find_recurrence_within(
+    frequency: f64,
+    states: &[Start],
+    share: f64,
+) -> Option<Recurrence> {
     let longest = states.len().checked_sub(1)? / 2;
     let size = motion_size(frequency, states);
     let most = (share * size).powi(2);
@@ -59,7 +63,7 @@ pub(crate) fn find_return_within(frequency: f64, states: &[Start], share: f64) -
         } else {
             0.0
         };
-        Some(Return { periods, distance })
+        Some(Recurrence { periods, distance })
     })
 }
 
@@ -80,7 +84,7 @@ pub(crate) fn find_settled_period(frequency: f64, states: &[Start], share: f64) 
         let [first, second] = squared_gaps_by_half(frequency, states, apart);
         second < (most * most).min(ratio * ratio * first)
     };
-    match find_return_within(frequency, states, share) {
+    match find_recurrence_within(frequency, states, share) {
         Some(found) => {
             let divisors = (1..found.periods).filter(|part| found.periods.is_multiple_of(*part));
             let mut dying = divisors.filter(|part| dies(*part, DECAY_SHARES.0));
@@ -109,7 +113,7 @@ fn squared_gaps_by_half(frequency: f64, states: &[Start], apart: usize) -> [f64;
 
 #[cfg(test)]
 mod tests {
-    use super::{find_return_within, find_settled_period};
+    use super::{find_recurrence_within, find_settled_period};
     use softstop::Start;
 
     /// A spiral onto the origin, a third of a turn and a little more at each step.
@@ -125,12 +129,12 @@ mod tests {
     #[test]
     fn a_spiral_settles_on_its_centre() {
         let states = spiral(0.9);
-        let found = find_return_within(1.0, &states, 3e-5).expect("returns");
+        let found = find_recurrence_within(1.0, &states, 3e-5).expect("returns");
         assert!(found.periods > 1, "{found:?}");
         assert_eq!(find_settled_period(1.0, &states, 3e-5), Some(1));
         // So it does where it has not come back yet, if it is fast and near.
         let fast = spiral(0.7);
-        assert!(find_return_within(1.0, &fast, 1e-5).is_none());
+        assert!(find_recurrence_within(1.0, &fast, 1e-5).is_none());
         assert_eq!(find_settled_period(1.0, &fast, 1e-5), Some(1));
     }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::recurrence::find_return;
+use super::recurrence::find_recurrence;
 use softstop::{Clock, Crossing, MotionError, Observer, Scene, Start};
 
 /// The regime z = p/n: p impacts in n drive periods, after which the state returns.
@@ -49,7 +49,7 @@ impl Regime {
             states.push(motion.state());
             counts.push(counter.0);
         }
-        let found = find_return(scene.excitation.frequency, &states);
+        let found = find_recurrence(scene.excitation.frequency, &states);
         let regime = found.map(|found| Self {
             impacts: counts[found.periods],
             periods: found.periods as u64,

@@ -20,7 +20,7 @@ pub struct StroboscopicMap {
 /// One application of the map.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Passage {
+pub struct MapApplication {
     /// Position and velocity after the periods.
     pub end: Vector2<f64>,
     /// Exact Jacobian of the map.
@@ -71,10 +71,10 @@ impl StroboscopicMap {
     ///
     /// # Errors
     /// [`MotionError`] if the state is not finite or the motion unbounded.
-    pub fn apply(&self, state: Vector2<f64>) -> Result<Passage, MotionError> {
+    pub fn apply(&self, state: Vector2<f64>) -> Result<MapApplication, MotionError> {
         let trajectory = self.trajectory(state)?;
         let tangent = trajectory.tangent();
-        Ok(Passage {
+        Ok(MapApplication {
             end: trajectory.end.into(),
             monodromy: Monodromy::from(&tangent),
             damping_integral: tangent.damping_integral,
@@ -135,7 +135,7 @@ const MAX_IDLE_STEPS: usize = 12;
 pub fn find_fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
-) -> Result<(Vector2<f64>, Passage), OrbitError> {
+) -> Result<(Vector2<f64>, MapApplication), OrbitError> {
     let found = find_new_fixed_point(map, start, |_| false)?;
     found.ok_or(OrbitError::LOST)
 }
@@ -145,7 +145,7 @@ pub(super) fn find_new_fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
     known: impl Fn(Vector2<f64>) -> bool,
-) -> Result<Option<(Vector2<f64>, Passage)>, OrbitError> {
+) -> Result<Option<(Vector2<f64>, MapApplication)>, OrbitError> {
     let mut state = start;
     let mut passage = map.apply(state)?;
     let scales = map.scene().scales();
@@ -194,7 +194,7 @@ fn step_within_walls(
     map: &StroboscopicMap,
     state: Vector2<f64>,
     step: Vector2<f64>,
-) -> Result<(Vector2<f64>, Passage), MotionError> {
+) -> Result<(Vector2<f64>, MapApplication), MotionError> {
     let mut last = None;
     for halvings in 0..MAX_HALVINGS {
         let next = state + step * 0.5f64.powi(halvings);

@@ -24,7 +24,7 @@ use crate::attractors::Region;
 use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
-use crate::orbit::recurrence::RETURN_DISTANCE;
+use crate::orbit::recurrence::RECURRENCE_DISTANCE;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -47,7 +47,7 @@ impl Default for Settling {
             periods: 500,
             watched: 64,
             longest: 8000,
-            tolerance: RETURN_DISTANCE,
+            tolerance: RECURRENCE_DISTANCE,
         }
     }
 }

@@ -34,7 +34,7 @@ pub use chain::{Chain, Coexistence, Jump, Step, find_coexistences};
 use thiserror::Error;
 
 pub use crate::direction::Direction;
-use crate::orbit::recurrence::RETURN_DISTANCE;
+use crate::orbit::recurrence::RECURRENCE_DISTANCE;
 use softstop::{Parameter, Start};
 
 /// The plan of a sweep: which parameter, which values, for how long each.
@@ -107,7 +107,7 @@ impl Plan {
             range,
             steps,
             periods,
-            tolerance: RETURN_DISTANCE,
+            tolerance: RECURRENCE_DISTANCE,
             heights: true,
             start: Start::REST,
         })

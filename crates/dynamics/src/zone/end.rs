@@ -1,7 +1,7 @@
 //! The end of a zone or a stable range, and why it is there.
 
 use crate::continuation::{
-    BorderCollision, Branch, BranchPoint, End, Face, SpecialKind, TestFunction,
+    BorderCollision, Branch, BranchEnd, BranchPoint, SpecialKind, SwitchingSurface, TestFunction,
 };
 use crate::orbit::OrbitError;
 
@@ -48,7 +48,7 @@ pub(super) fn first_end<'a>(
 ) -> Option<ZoneEnd> {
     let ends_motion = |kind: &SpecialKind| match kind {
         SpecialKind::Critical(_) | SpecialKind::Pitchfork => true,
-        SpecialKind::Grazing(graze) => graze.face == Face::Clearance,
+        SpecialKind::Grazing(graze) => graze.face == SwitchingSurface::Clearance,
     };
     points.find_map(|point| match branch.special_at(point) {
         Some(special) if ends_motion(&special.kind) => {
@@ -81,7 +81,7 @@ pub enum Loss {
     /// Another impact comes up: a turning point reaches the clearance.
     AnotherImpact,
     /// It grazes a surface beyond the clearance, where the force jumps: a border collision.
-    Inner(Face),
+    Inner(SwitchingSurface),
     /// Another border collision.
     Border(BorderCollision),
     /// It is followed no farther than here.
@@ -101,20 +101,20 @@ impl Loss {
             SpecialKind::Critical(test) => Self::from(*test),
             SpecialKind::Pitchfork => Self::Pitchfork,
             SpecialKind::Grazing(graze) => match graze.face {
-                Face::Clearance if graze.impacts == 0 => Self::Grazing,
-                Face::Clearance => Self::AnotherImpact,
+                SwitchingSurface::Clearance if graze.impacts == 0 => Self::Grazing,
+                SwitchingSurface::Clearance => Self::AnotherImpact,
                 face => Self::Inner(face),
             },
         }
     }
 
     /// The loss of z = 1 where a branch ends otherwise; at a grazing its special point says which.
-    pub(super) fn of_branch_end(end: &End) -> Self {
+    pub(super) fn of_branch_end(end: &BranchEnd) -> Self {
         match end {
-            End::Points => Self::Budget,
-            End::Border(border) => Self::Border(*border),
-            End::Unstable => Self::Unstable,
-            End::Lost(error) => Self::Lost(error.clone()),
+            BranchEnd::Points => Self::Budget,
+            BranchEnd::Border(border) => Self::Border(*border),
+            BranchEnd::Unstable => Self::Unstable,
+            BranchEnd::Lost(error) => Self::Lost(error.clone()),
             _ => Self::Range,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::end::{Loss, ZoneEnd, first_end};
 use crate::continuation::{
-    Branch, BranchPoint, Continuation, Direction, Limits, SpecialKind, TestFunction,
+    Branch, BranchLimits, BranchPoint, Continuation, Direction, SpecialKind, TestFunction,
 };
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
@@ -84,7 +84,7 @@ pub(super) fn follow_to_end(
     let last = points.len().checked_sub(1).ok_or(OrbitError::NotIsolated)?;
     let follow_from = |from: usize| {
         let start = &points[from];
-        let limits = Limits {
+        let limits = BranchLimits {
             range: match direction {
                 Direction::Up => (start.parameter, range.1),
                 Direction::Down => (range.0, start.parameter),

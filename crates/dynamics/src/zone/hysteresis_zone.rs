@@ -14,7 +14,7 @@ use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies, refuse_below
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, TestFunction};
 use crate::monitor::{Monitor, stop_if, unmonitored};
-use crate::orbit::{Orbit, OrbitError, find_batch, find_with_singles};
+use crate::orbit::{Orbit, OrbitError, find_batch, find_with_known_orbits};
 use crate::parallel;
 use crate::tolerance::TEST_ROUNDING;
 use softstop::Scene;
@@ -66,7 +66,7 @@ fn zone_with_singles(
     monitor: Monitor<'_>,
 ) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
-    let start = find_with_singles(&scene.at_frequency(grazing.1), singles, monitor);
+    let start = find_with_known_orbits(&scene.at_frequency(grazing.1), singles, monitor);
     zone_from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
 }
 

@@ -7,7 +7,7 @@ use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
-use crate::orbit::{Orbit, OrbitError, harder_single};
+use crate::orbit::{Orbit, OrbitError, harder_single_impact_orbit};
 use crate::parallel;
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene};
@@ -40,7 +40,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
         let least = (1.0 + SAME) * known.fold(0.0, f64::max);
-        if let Some(start) = harder_single(
+        if let Some(start) = harder_single_impact_orbit(
             &scene.recheck(scene.at_frequency(frequency))?,
             least,
             monitor,

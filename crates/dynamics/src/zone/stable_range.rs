@@ -6,7 +6,9 @@ use nalgebra::{Vector2, Vector4};
 
 use super::end::{Loss, ZoneEnd};
 use super::{Frequencies, Zone};
-use crate::continuation::{Branch, BranchPoint, Continuation, End, Family, OFF_CHORD, SpecialKind};
+use crate::continuation::{
+    Branch, BranchEnd, BranchPoint, Continuation, Family, MAX_CHORD_DISTANCE, SpecialKind,
+};
 use crate::orbit::OrbitError;
 use crate::tolerance::{ROUNDING, SAME};
 use softstop::internals::highest_point;
@@ -118,7 +120,8 @@ pub(super) fn lies_on_chord(
     let gone = place(point) - from;
     let share = gone.dot(&way) / way.norm_squared();
     let off = (gone - share * way).norm();
-    (-OFF_CHORD..=1.0 + OFF_CHORD).contains(&share) && off <= OFF_CHORD * way.norm() + SAME
+    (-MAX_CHORD_DISTANCE..=1.0 + MAX_CHORD_DISTANCE).contains(&share)
+        && off <= MAX_CHORD_DISTANCE * way.norm() + SAME
 }
 
 /// The stable ranges of a branch.
@@ -142,7 +145,7 @@ pub(super) fn stable_parts(continuation: &Continuation<'_>, branch: &Branch) -> 
 /// The points of a branch; those of a closed one from its first special point around to it again.
 fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
     let points = branch.points.iter();
-    let (End::Closed, Some(first)) = (&branch.ends.1, branch.specials.first()) else {
+    let (BranchEnd::Closed, Some(first)) = (&branch.ends.1, branch.specials.first()) else {
         return points.collect();
     };
     // The last point lies beyond the start.

@@ -6,9 +6,11 @@ use super::stable_range::{
     StableRange, is_same_state, lies_on_chord, stable_parts, unknown_scales,
 };
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
-use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
+use crate::continuation::{Branch, BranchEnd, BranchLimits, BranchPoint, Continuation};
 use crate::monitor::{Monitor, unmonitored};
-use crate::orbit::{Orbit, OrbitError, singles_about, singles_near};
+use crate::orbit::{
+    Orbit, OrbitError, single_impact_orbits_about_frequency, single_impact_orbits_near_impact,
+};
 use crate::tolerance::NEAR;
 use softstop::{CheckedScene, Scene};
 
@@ -78,7 +80,7 @@ pub(super) fn find_stable_ranges(
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
         next += 1;
-        let mut met = VecDeque::from(singles_about(
+        let mut met = VecDeque::from(single_impact_orbits_about_frequency(
             &scene.recheck(scene.at_frequency(frequency))?,
             FREE_SHARE,
             monitor,
@@ -149,9 +151,9 @@ fn is_off_branch(
 }
 
 /// The limits of the branches of a scene.
-fn branch_limits(scene: &Scene) -> Limits {
+fn branch_limits(scene: &Scene) -> BranchLimits {
     let natural = scene.scales().rate;
-    Limits {
+    BranchLimits {
         range: (FOLLOWED_RANGE.0 * natural, FOLLOWED_RANGE.1 * natural),
         points: MAX_RANGE_POINTS,
     }
@@ -181,8 +183,10 @@ fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
         (&branch.ends.0, branch.points.first()),
         (&branch.ends.1, branch.points.last()),
     ];
-    let border = |(end, point): (&End, _)| match end {
-        End::Grazing | End::Border(_) | End::Unstable | End::Lost(_) => point,
+    let border = |(end, point): (&BranchEnd, _)| match end {
+        BranchEnd::Grazing | BranchEnd::Border(_) | BranchEnd::Unstable | BranchEnd::Lost(_) => {
+            point
+        }
         _ => None,
     };
     ends.into_iter().filter_map(border).collect()
@@ -194,7 +198,10 @@ fn orbits_beyond(scene: &CheckedScene, border: &Orbit) -> Vec<Orbit> {
     let shares = BEYOND_SHARES.into_iter().flat_map(|share| [-share, share]);
     let near = |share: f64| {
         let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
-        Some(singles_near(&scene.recheck(there).ok()?, *impacts.first()?))
+        Some(single_impact_orbits_near_impact(
+            &scene.recheck(there).ok()?,
+            *impacts.first()?,
+        ))
     };
     shares.filter_map(near).flatten().collect()
 }

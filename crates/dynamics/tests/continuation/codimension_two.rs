@@ -35,7 +35,7 @@ fn over_the_clearance(scene: &Scene) -> Branch {
         (regime.impacts == 1 && regime.periods == 1).then_some(it.orbit?)
     });
     let family = ParameterFamily::new(scene.clone(), [Parameter::Clearance]).expect("a family");
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.6 * scene.clearance, 1.3 * scene.clearance),
         points: 2000,
     };
@@ -208,7 +208,7 @@ fn folds_of_a_soft_stop_meet_in_a_cusp() {
         scene.excitation.frequency = 1.0;
         let orbit = softstop_dynamics::orbit::find(&scene).expect("z = 1");
         let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
-        let limits = Limits {
+        let limits = BranchLimits {
             range: (0.8, 2.5),
             points: 4000,
         };
@@ -295,7 +295,7 @@ fn curves_begin_in_points_of_codimension_two() {
         let along = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
         let continuation = Continuation::new(&along, 1);
         let flip = continuation.find_point(frequency, flip.state());
-        let limits = Limits {
+        let limits = BranchLimits {
             range: (frequency - 0.1, frequency + 0.1),
             points: 500,
         };

@@ -10,7 +10,7 @@ pub(super) fn plane(parameters: [Parameter; 2]) -> ParameterFamily<2> {
 }
 
 pub(super) fn followed(
-    special: &Special,
+    special: &SpecialPoint,
     periods: u64,
     family: &dyn Family<2>,
     second: f64,
@@ -20,7 +20,7 @@ pub(super) fn followed(
 }
 
 fn followed_by_steps(
-    special: &Special,
+    special: &SpecialPoint,
     periods: u64,
     family: &dyn Family<2>,
     second: f64,

@@ -17,7 +17,7 @@ fn rigid() -> Frequencies {
 #[test]
 fn doublings_of_a_rigid_stop_are_feigenbaums() {
     let family = rigid();
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (1.5, 3.0),
         points: 500,
     };
@@ -54,7 +54,7 @@ fn the_doubled_branch_of_z1_grazes() {
     let flip = of_kind(&z1, "PD").remove(0).point;
     let doubled = double(&frequencies(1.15), 1, &flip);
     assert_eq!(doubled.periods, 2);
-    assert!(matches!(doubled.ends.1, End::Grazing));
+    assert!(matches!(doubled.ends.1, BranchEnd::Grazing));
     let dies = of_kind(&doubled, "G").remove(0).point;
     let half = branch(0.9886, 2, HALF, (0.9, 1.1));
     let born = of_kind(&half, "G").remove(1).point;
@@ -66,7 +66,7 @@ fn the_doubled_branch_of_z1_grazes() {
 fn the_shortest_period_is_found() {
     let branch = branch(1.15, 4, A, (1.1, 1.2));
     assert_eq!(branch.periods, 1);
-    assert!(matches!(branch.ends, (End::Range, End::Range)));
+    assert!(matches!(branch.ends, (BranchEnd::Range, BranchEnd::Range)));
     let (low, high) = (&branch.points[0], &branch.points[branch.points.len() - 1]);
     assert_near(low.parameter, 1.1, MOTION);
     assert_near(high.parameter, 1.2, MOTION);
@@ -85,7 +85,9 @@ fn a_doubled_branch_merges_into_the_one_it_came_from() {
         (&back.ends.0, &back.points[0]),
         (&back.ends.1, &back.points[back.points.len() - 1]),
     ];
-    let merged = ends.iter().find(|(end, _)| matches!(end, End::Merged));
+    let merged = ends
+        .iter()
+        .find(|(end, _)| matches!(end, BranchEnd::Merged));
     let (_, point) = merged.expect("one end is the flip");
     assert_near(point.parameter, flip.parameter, 10.0 * MOTION);
 }
@@ -125,7 +127,11 @@ fn doubled_branches_end_in_the_next_flip_of_their_branch() {
         let flips = of_kind(&follow(&family, 1, (own, state), range), "PD");
         let flip = &flips[0].point;
         let doubled = double_within(&family, 1, flip, range);
-        assert!(matches!(doubled.ends.1, End::Merged), "{:?}", doubled.ends);
+        assert!(
+            matches!(doubled.ends.1, BranchEnd::Merged),
+            "{:?}",
+            doubled.ends
+        );
         let last = doubled.points.last().expect("points");
         assert_eq!(last.impacts.len(), 2 * flip.impacts.len());
         assert_near(last.fold_test(), 0.0, SOLVED);
@@ -153,7 +159,11 @@ fn doubled_branches_of_stiff_stops_end_in_a_flip() {
         let branch = follow(&family, 1, (1.15, Vector2::new(6.9, 9.5)), range);
         let flips = of_kind(&branch, "PD");
         let doubled = double_within(&family, 1, &flips[1].point, range);
-        assert!(matches!(doubled.ends.1, End::Merged), "{:?}", doubled.ends);
+        assert!(
+            matches!(doubled.ends.1, BranchEnd::Merged),
+            "{:?}",
+            doubled.ends
+        );
         let last = doubled.points.last().expect("points");
         assert_near(last.parameter, flips[0].point.parameter, SOLVED);
         assert_eq!(last.impacts.len(), 2, "{stiffness}");
@@ -172,7 +182,7 @@ fn doubled_branches_end_beside_grazing() {
     let flip = of_kind(&follow(&family, 1, (own, state), range), "PD").remove(0);
     let twice = of_kind(&double_within(&family, 1, &flip.point, range), "PD");
     let four = double_within(&family, 2, &twice[1].point, range);
-    assert!(matches!(four.ends.1, End::Merged), "{:?}", four.ends);
+    assert!(matches!(four.ends.1, BranchEnd::Merged), "{:?}", four.ends);
     let last = four.points.last().expect("points").parameter;
     assert_near(last, twice[0].point.parameter, SOLVED);
 }

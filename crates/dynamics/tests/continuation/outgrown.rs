@@ -55,7 +55,7 @@ fn unknowns_of_parameters_are_taken_back() {
 fn a_doubled_branch_is_that_of_usual_scales() {
     let flip = of_kind(&all_of_z1(), "PD").remove(0).point;
     let usual = double(&frequencies(1.15), 1, &flip);
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.9, 1.1),
         points: 500,
     };
@@ -98,7 +98,7 @@ fn curves_are_those_of_usual_scales() {
 #[test]
 fn steps_shrink_with_the_parameter() {
     let family = Outgrown(frequencies(0.9));
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (0.01, 0.91),
         points: 2000,
     };
@@ -107,7 +107,11 @@ fn steps_shrink_with_the_parameter() {
     let go_on = |_: &_| ControlFlow::Continue(());
     let branch = Continuation::new(&family, 1).branch(0.9, settled.into(), &limits, go_on);
     let branch = branch.expect("a branch");
-    assert!(matches!(branch.ends.0, End::Range), "{:?}", branch.ends);
+    assert!(
+        matches!(branch.ends.0, BranchEnd::Range),
+        "{:?}",
+        branch.ends
+    );
     let steps = branch.points.windows(2);
     let largest = steps
         .map(|pair| pair[1].parameter / pair[0].parameter)

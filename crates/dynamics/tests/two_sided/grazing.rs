@@ -3,7 +3,8 @@
 use super::*;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    BranchPoint, ContinuationSettings, CurveLimits, Face, Graze, Special, follow_special,
+    BranchPoint, ContinuationSettings, CurveLimits, GrazingTouch, SpecialPoint, SwitchingSurface,
+    follow_special,
 };
 use softstop_dynamics::orbit::OrbitError;
 use softstop_testing::kelvin_voigt;
@@ -13,7 +14,7 @@ fn branch(scene: &Scene, range: (f64, f64)) -> Branch {
     let settled = scene.trajectory(Start::new(0.0, 1.0), 400);
     let state = settled.expect("a motion").end;
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
-    let limits = Limits {
+    let limits = BranchLimits {
         range,
         points: 4000,
     };
@@ -28,7 +29,7 @@ fn branch(scene: &Scene, range: (f64, f64)) -> Branch {
 }
 
 /// The grazings of both stops on a branch.
-fn of_both(branch: &Branch) -> Vec<(Graze, &BranchPoint)> {
+fn of_both(branch: &Branch) -> Vec<(GrazingTouch, &BranchPoint)> {
     let grazes = branch
         .specials
         .iter()
@@ -75,9 +76,12 @@ fn both_impacts_die_where_the_free_motion_reaches_both_stops() {
             assert_near(point.parameter, square.sqrt(), 1e-10);
             assert_eq!((graze.dies, graze.impacts), (true, 0), "{:?}", scene.stop);
         }
-        let grazes = matches!(branch.ends, (End::Grazing, End::Grazing));
+        let grazes = matches!(branch.ends, (BranchEnd::Grazing, BranchEnd::Grazing));
         assert_ne!(grazes, goes_on, "{:?}", branch.ends);
-        assert_eq!(matches!(branch.ends, (End::Range, End::Range)), goes_on);
+        assert_eq!(
+            matches!(branch.ends, (BranchEnd::Range, BranchEnd::Range)),
+            goes_on
+        );
     }
 }
 
@@ -102,7 +106,7 @@ fn touches_of_stops_that_are_nearly_alike_are_told_apart() {
         let settled = scene.trajectory(Start::new(0.0, 1.0), 400);
         let state = settled.expect("a motion").end;
         let family = ParameterFamily::new(scene, [Parameter::Amplitude]).expect("a parameter");
-        let limits = Limits {
+        let limits = BranchLimits {
             range: (0.01, 1.3),
             points: 4000,
         };
@@ -113,14 +117,18 @@ fn touches_of_stops_that_are_nearly_alike_are_told_apart() {
             SpecialKind::Grazing(graze) => Some((graze.face, special.point.parameter)),
             _ => None,
         });
-        let mut faces: Vec<Face> = Vec::new();
+        let mut faces: Vec<SwitchingSurface> = Vec::new();
         for (face, parameter) in grazes {
             // |k - m w^2 + i b w| times the clearance.
             assert_near(parameter, 0.21f64.hypot(0.11), 10.0 * apart.abs() + 1e-10);
             faces.push(face);
         }
-        faces.sort_by_key(|face| *face == Face::Below);
-        assert_eq!(faces, [Face::Clearance, Face::Below], "{apart} {release:?}");
+        faces.sort_by_key(|face| *face == SwitchingSurface::Below);
+        assert_eq!(
+            faces,
+            [SwitchingSurface::Clearance, SwitchingSurface::Below],
+            "{apart} {release:?}"
+        );
     }
 }
 
@@ -139,7 +147,7 @@ fn along_clearance(frequency: f64, stop: Stop, nearer: f64) -> (Branch, f64) {
     scene.stop = stop;
     let (start, settled) = (scene.clearance, scene.trajectory(Start::new(0.0, 1.0), 400));
     let family = ParameterFamily::new(scene, [Parameter::Clearance]).expect("a parameter");
-    let limits = Limits {
+    let limits = BranchLimits {
         range: (start, 1.1 * amplitude),
         points: 4000,
     };
@@ -150,8 +158,8 @@ fn along_clearance(frequency: f64, stop: Stop, nearer: f64) -> (Branch, f64) {
 }
 
 /// The faces that are grazed on a branch, whether a crossing dies there, and the parameter.
-fn touches(branch: &Branch) -> Vec<(Face, bool, f64)> {
-    let touch = |special: &Special| match special.kind {
+fn touches(branch: &Branch) -> Vec<(SwitchingSurface, bool, f64)> {
+    let touch = |special: &SpecialPoint| match special.kind {
         SpecialKind::Grazing(graze) => Some((graze.face, graze.dies, special.point.parameter)),
         _ => None,
     };
@@ -169,7 +177,7 @@ fn touches_that_come_and_go_on_one_step_are_told_each() {
             panic!("{:?}", touches(&branch));
         };
         let kinds = [left, back, free].map(|(face, dies, _)| (face, dies));
-        let (below, above) = (Face::Below, Face::Clearance);
+        let (below, above) = (SwitchingSurface::Below, SwitchingSurface::Clearance);
         assert_eq!(kinds, [(below, true), (below, false), (above, true)]);
         assert!(left.2 < back.2 && back.2 < free.2);
         assert_near(free.2, amplitude, 0.1 * nearer);
@@ -184,9 +192,13 @@ fn what_would_cross_another_stop_does_not_graze() {
         let stiffness = 0.2;
         let stop = Stop::Preloaded { stiffness, preload };
         let (branch, amplitude) = along_clearance(0.3, stop, nearer);
-        assert!(matches!(branch.ends.1, End::Grazing), "{:?}", branch.ends);
+        assert!(
+            matches!(branch.ends.1, BranchEnd::Grazing),
+            "{:?}",
+            branch.ends
+        );
         let touches = touches(&branch);
-        let [(Face::Below, false, parameter)] = touches[..] else {
+        let [(SwitchingSurface::Below, false, parameter)] = touches[..] else {
             panic!("{touches:?}");
         };
         assert!(parameter < amplitude);
@@ -199,7 +211,10 @@ fn what_would_cross_another_stop_does_not_graze() {
 fn both_turning_points_arrive_where_the_closed_form_comes_back_up_to_the_stop() {
     let scene = machine(1.0, 0.04, 1.8, 0.8);
     let branch = branch(&scene, (0.3, 4.0));
-    assert!(matches!(branch.ends, (End::Grazing, End::Range)));
+    assert!(matches!(
+        branch.ends,
+        (BranchEnd::Grazing, BranchEnd::Range)
+    ));
     let found = of_both(&branch);
     let [(graze, point)] = found[..] else {
         panic!("{found:?}");

@@ -6,9 +6,9 @@ use anyhow::anyhow;
 use nalgebra::Vector2;
 use softstop::Machine;
 use softstop_dynamics::continuation::{
-    ContinuationSettings, End, Family, SpecialKind, TestFunction,
+    BranchEnd, ContinuationSettings, Family, SpecialKind, TestFunction,
 };
-use softstop_dynamics::{Branch, BranchPoint, Continuation, Limits};
+use softstop_dynamics::{Branch, BranchLimits, BranchPoint, Continuation};
 
 use super::{ContinueArguments, Followed, family, seed};
 use softstop_console::failure::Failure;
@@ -27,7 +27,7 @@ const MAX_STEPS_ACROSS: f64 = 2000.0;
 fn continuation<'a>(
     family: &'a dyn Family,
     periods: u64,
-    limits: &Limits,
+    limits: &BranchLimits,
 ) -> Result<Continuation<'a>, Failure> {
     let [low, high] = <[f64; 2]>::from(limits.range).map(|end| family.scaled_parameters([end])[0]);
     let (steps, least) = NARROW;
@@ -54,7 +54,7 @@ pub(super) fn branches(
     (periods, state): (u64, Option<Vector2<f64>>),
 ) -> Result<Vec<Branch>, Failure> {
     let family = &family(machine, [along.parameter])?;
-    let limits = &Limits {
+    let limits = &BranchLimits {
         range: along.range,
         points: arguments.points,
     };
@@ -92,7 +92,7 @@ const MERGING_DISTANCE: f64 = 1e-6;
 fn doubled(
     family: &dyn Family,
     branch: &Branch,
-    limits: &Limits,
+    limits: &BranchLimits,
     bar: &Progress,
 ) -> Result<Vec<Branch>, Failure> {
     let follower = continuation(family, branch.periods, limits)?;
@@ -104,8 +104,8 @@ fn doubled(
     for (point, is_pitchfork) in flips.map(|flip| (flip, false)).chain(pitchforks) {
         let merges_here = |other: &Branch| {
             let merges = match other.ends.1 {
-                End::Merged => !is_pitchfork,
-                End::Symmetric => is_pitchfork,
+                BranchEnd::Merged => !is_pitchfork,
+                BranchEnd::Symmetric => is_pitchfork,
                 _ => false,
             };
             merges && ends_at(&follower, family, other, point)
@@ -151,7 +151,7 @@ mod tests {
     use nalgebra::Vector2;
     use softstop::{Parameter, Ratios};
     use softstop_dynamics::continuation::TestFunction;
-    use softstop_dynamics::{BranchPoint, Continuation, Limits, ParameterFamily};
+    use softstop_dynamics::{BranchLimits, BranchPoint, Continuation, ParameterFamily};
 
     use super::ends_at;
 
@@ -160,7 +160,7 @@ mod tests {
         let scene = Ratios::unloaded().scene().expect("a scene");
         let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
         let continuation = Continuation::new(&family, 1);
-        let limits = Limits {
+        let limits = BranchLimits {
             range: (0.95, 1.2),
             points: 500,
         };

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use softstop::Machine;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    ContinuationSettings, Curve, CurveLimits, CurvePoint, Family, Special, SpecialKind,
+    ContinuationSettings, Curve, CurveLimits, CurvePoint, Family, SpecialKind, SpecialPoint,
     follow_special, switch_curves,
 };
 use softstop_dynamics::orbit::OrbitError;
@@ -28,7 +28,7 @@ pub(super) struct Curves<'a> {
 pub(super) struct NotFollowed<'a> {
     /// Drive periods of its orbit.
     pub periods: u64,
-    pub special: &'a Special,
+    pub special: &'a SpecialPoint,
     pub error: OrbitError,
 }
 
@@ -50,8 +50,8 @@ pub(super) fn curves<'a>(
     };
     let bar = Progress::open("points of curves");
     let (mut found, mut not_followed) = (Vec::<Curve>::new(), Vec::new());
-    let start = |special: &Special| [special.point.parameter, both[1].start];
-    let is_on = |(periods, special): (u64, &Special), curves: &[Curve]| {
+    let start = |special: &SpecialPoint| [special.point.parameter, both[1].start];
+    let is_on = |(periods, special): (u64, &SpecialPoint), curves: &[Curve]| {
         let mut curves = curves.iter();
         curves.any(|it| is_of(it, &special.kind, periods) && passes(it, start(special)))
     };

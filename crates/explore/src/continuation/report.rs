@@ -3,8 +3,8 @@
 use softstop::{Machine, MotionError, Parameter};
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    BorderCollision, CodimensionTwo, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
-    normal_form_coefficient,
+    BorderCollision, BranchEnd, CodimensionTwo, Curve, CurveEnd, CurvePoint, SpecialKind,
+    SpecialPoint, normal_form_coefficient,
 };
 use softstop_dynamics::orbit::OrbitError;
 
@@ -28,7 +28,7 @@ fn branch() -> [Column<Branch>; 5] {
 }
 
 /// A special point with the coefficient of its normal form.
-type Classified<'a> = (&'a Special, Option<f64>);
+type Classified<'a> = (&'a SpecialPoint, Option<f64>);
 
 fn specials<'a>() -> [Column<Classified<'a>>; 9] {
     columns! { Classified<'a>, it;
@@ -85,7 +85,7 @@ fn classified<'a>(
     parameter: Parameter,
     branch: &'a Branch,
 ) -> Vec<Classified<'a>> {
-    let coefficient = |special: &Special| {
+    let coefficient = |special: &SpecialPoint| {
         let SpecialKind::Critical(test) = special.kind else {
             return None;
         };
@@ -106,7 +106,7 @@ fn ends(ends: [String; 2]) -> Told {
 }
 
 /// What a special point is, with what becomes of the regime at a grazing, and whether multipliers jump past it there.
-fn describe(special: &Special) -> String {
+fn describe(special: &SpecialPoint) -> String {
     let kind = &special.kind;
     let SpecialKind::Grazing(graze) = kind else {
         return match kind {
@@ -127,21 +127,21 @@ fn describe(special: &Special) -> String {
     }
 }
 
-fn end(end: &End) -> String {
+fn end(end: &BranchEnd) -> String {
     match end {
-        End::Range => "the range ends".to_owned(),
-        End::Points => LIMIT.to_owned(),
-        End::Closed => "the branch is closed".to_owned(),
-        End::Grazing => "the orbit grazes".to_owned(),
-        End::Merged => "it merges into the orbit of half its period".to_owned(),
-        End::Symmetric => "it merges into a symmetric orbit".to_owned(),
-        End::Stopped => "stopped".to_owned(),
-        End::Border(border) => format!("border collision: {}", met(*border)),
-        End::Unstable => {
+        BranchEnd::Range => "the range ends".to_owned(),
+        BranchEnd::Points => LIMIT.to_owned(),
+        BranchEnd::Closed => "the branch is closed".to_owned(),
+        BranchEnd::Grazing => "the orbit grazes".to_owned(),
+        BranchEnd::Merged => "it merges into the orbit of half its period".to_owned(),
+        BranchEnd::Symmetric => "it merges into a symmetric orbit".to_owned(),
+        BranchEnd::Stopped => "stopped".to_owned(),
+        BranchEnd::Border(border) => format!("border collision: {}", met(*border)),
+        BranchEnd::Unstable => {
             "a change of the orbit grows a million times in a round: too unstable to follow"
                 .to_owned()
         }
-        End::Lost(error) => lost(error),
+        BranchEnd::Lost(error) => lost(error),
     }
 }
 

@@ -3,7 +3,7 @@
 use serde_json::json;
 use softstop::{Dimension, Machine};
 use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, SearchOptions};
-use softstop_dynamics::{Exponents, MotionKind, Orbit, Survey};
+use softstop_dynamics::{LyapunovExponents, MotionKind, Orbit, Survey};
 
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
@@ -107,7 +107,7 @@ fn periodic<'a>() -> [Column<Periodic<'a>>; 12] {
         "velocity" [Velocity] Fixed(9), "velocity there" => it.0.velocity;
         "max_position" [Length] Fixed(6), "largest position" => it.0.max_position;
         "multipliers" [None] Plain, "multipliers" => multipliers(it.0.monodromy.multipliers());
-        "exponents" [None] Plain, "Lyapunov exponents" => both(&Exponents::of(it.0));
+        "exponents" [None] Plain, "Lyapunov exponents" => both(&LyapunovExponents::of(it.0));
         "returned" [None] Power(1), "returns to within, when met" => it.1.returned;
         "residual" [None] Power(1), "and when polished" => it.1.residual;
     }
@@ -137,8 +137,8 @@ fn transient() -> [Column<Chaos>; 2] {
     }
 }
 
-fn unsettled<'a>() -> [Column<(&'a Attractor, &'a Exponents)>; 3] {
-    columns! { (&'a Attractor, &'a Exponents), it;
+fn unsettled<'a>() -> [Column<(&'a Attractor, &'a LyapunovExponents)>; 3] {
+    columns! { (&'a Attractor, &'a LyapunovExponents), it;
         "position" [Length], "position at drive angle phi" => it.0.state.position;
         "velocity" [Velocity], "velocity there" => it.0.state.velocity;
         "exponents" [None] Plain, "Lyapunov exponent" => larger(it.1);
@@ -146,7 +146,7 @@ fn unsettled<'a>() -> [Column<(&'a Attractor, &'a Exponents)>; 3] {
 }
 
 /// Exponents with the words for all of them.
-fn both(exponents: &Exponents) -> Told {
+fn both(exponents: &LyapunovExponents) -> Told {
     let [first, second] = exponents.per_period.map(|it| match it.is_finite() {
         true => format!("{it:.6}"),
         false => "-infinity".to_owned(),
@@ -155,14 +155,14 @@ fn both(exponents: &Exponents) -> Told {
 }
 
 /// Exponents with the words for the larger one.
-fn larger(exponents: &Exponents) -> Told {
+fn larger(exponents: &LyapunovExponents) -> Told {
     let ([period, _], [second, _]) = (exponents.per_period, exponents.per_second());
     let error = exponents.error;
     let words = format!("{period:.4} +- {error:.4} per drive period, {second:.5} per unit of time");
     format_exponents(exponents, words)
 }
 
-fn format_exponents(exponents: &Exponents, words: String) -> Told {
+fn format_exponents(exponents: &LyapunovExponents, words: String) -> Told {
     Told {
         value: json!({
             "per_period": exponents.per_period,

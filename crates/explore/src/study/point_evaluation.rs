@@ -8,7 +8,7 @@ use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::settled::{SettledMotion, Settling};
 use softstop_dynamics::zone::{ZoneEnd, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{
-    CycleMetrics, Exponents, MotionKind, Orbit, Regime, StroboscopicMap, Zone,
+    CycleMetrics, LyapunovExponents, MotionKind, Orbit, Regime, StroboscopicMap, Zone,
 };
 
 use super::certainty::Certainty;
@@ -69,7 +69,7 @@ impl PointEvaluation<'_> {
     /// The larger Lyapunov exponent per drive period.
     pub fn exponent(&self) -> Option<f64> {
         match self.seen.as_ref()?.periods {
-            Some(_) => Some(Exponents::of(self.orbit()?).per_period[0]),
+            Some(_) => Some(LyapunovExponents::of(self.orbit()?).per_period[0]),
             None => self.wandering_exponent(),
         }
     }

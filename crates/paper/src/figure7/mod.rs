@@ -9,7 +9,7 @@ use softstop_console::export::csv;
 use softstop_console::machine::PaperMachine;
 use softstop_draw::{Chart, Layer, Stroke, style};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::{Exponents, Orbit};
+use softstop_dynamics::{LyapunovExponents, Orbit};
 
 use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use crate::path::{Path, PathPoint};
@@ -64,7 +64,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "period T" => period;
         "contact, share of T" => contact.sum::<f64>() / period;
         "largest multiplier, modulus" => orbit.monodromy.multipliers()[0].norm();
-        "Lyapunov exponent per period" => Exponents::of(orbit).per_period[0];
+        "Lyapunov exponent per period" => LyapunovExponents::of(orbit).per_period[0];
         "energy dissipated per period" => path.dissipated;
         "of it in contact, share" => path.dissipated_in_contact / path.dissipated;
         "X'_C" => velocity(path.first(PhaseKind::Cut));

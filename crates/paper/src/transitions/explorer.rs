@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use softstop::Start;
 use softstop_dynamics::attractors::{Arrival, SearchOptions, settle_starts};
 use softstop_dynamics::continuation::{
-    Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, TestFunction,
+    Branch, BranchLimits, BranchPoint, Continuation, Family, SpecialKind, TestFunction,
 };
 use softstop_dynamics::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
 use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
+use softstop_dynamics::orbit::{LyapunovExponents, Orbit, OrbitError};
 
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;
@@ -97,7 +97,7 @@ impl Explorer<'_> {
                 .collect();
             let is_chaos = match gone.first() {
                 Some(state) if 2 * gone.len() >= wandering.len() => {
-                    Exponents::differences_grow(&scene, (*state).into())?
+                    LyapunovExponents::differences_grow(&scene, (*state).into())?
                 }
                 _ => false,
             };
@@ -198,8 +198,8 @@ impl Explorer<'_> {
     }
 
     /// How far branches are followed.
-    pub(super) const fn limits(&self) -> Limits {
-        Limits {
+    pub(super) const fn limits(&self) -> BranchLimits {
+        BranchLimits {
             range: self.range,
             points: self.rules.points,
         }

@@ -8,7 +8,7 @@ use softstop::{CheckedScene, Instant, MotionError, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::internals::{Ensemble, HasMember, Member};
 use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
+use softstop_dynamics::orbit::{LyapunovExponents, Orbit, OrbitError};
 use softstop_lanes::Machine;
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
@@ -67,7 +67,7 @@ fn has_bursts(stretches: &Stretches) -> bool {
 
 /// Drive periods that a difference takes to grow to the size of the motion, from [`LEAST_DIFFERENCE`] of it.
 fn leaving(orbit: &Orbit) -> f64 {
-    let growth = Exponents::of(orbit).per_period[0];
+    let growth = LyapunovExponents::of(orbit).per_period[0];
     match growth > 0.0 {
         true => -LEAST_DIFFERENCE.ln() / growth,
         false => f64::INFINITY,

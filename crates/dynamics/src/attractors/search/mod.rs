@@ -11,8 +11,10 @@ use super::chaos::{Chaos, EscapeCounts};
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
 use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
-use crate::orbit::recurrence::find_return;
-use crate::orbit::{self, Exponents, Orbit, OrbitError, Regime, harder_single};
+use crate::orbit::recurrence::find_recurrence;
+use crate::orbit::{
+    self, LyapunovExponents, Orbit, OrbitError, Regime, harder_single_impact_orbit,
+};
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene, Start};
 use softstop_lanes::Machine;
@@ -38,7 +40,7 @@ struct SearchMember {
 /// A group of wandering motions that visit the same places.
 #[derive(Default)]
 struct Group {
-    exponents: Option<Exponents>,
+    exponents: Option<LyapunovExponents>,
     chaos: Option<Chaos>,
     /// Counts of the drive periods for which its motions were watched, and which had settled elsewhere then.
     escapes: EscapeCounts,
@@ -48,8 +50,8 @@ struct Group {
 
 impl Group {
     /// Keeps the exponents of the motion whose first one is the largest.
-    fn keep_largest(&mut self, exponents: Exponents) {
-        let first = |of: &Exponents| of.per_period[0];
+    fn keep_largest(&mut self, exponents: LyapunovExponents) {
+        let first = |of: &LyapunovExponents| of.per_period[0];
         if self
             .exponents
             .as_ref()
@@ -147,7 +149,7 @@ pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Star
     let met = search.catalogue.orbits.iter().map(|known| &known.orbit);
     let met = met.filter(|orbit| orbit.regime() == Regime::ONE);
     let hardest = match met.map(Orbit::before_impact_velocity).reduce(f64::max) {
-        Some(met) => harder_single(&search.scene, (1.0 + SAME) * met, &go_on)?,
+        Some(met) => harder_single_impact_orbit(&search.scene, (1.0 + SAME) * met, &go_on)?,
         None => orbit::find_with_monitor(scene, &go_on).ok(),
     };
     search.ensemble.count_work(0)?;
@@ -196,7 +198,7 @@ pub fn settle_starts(
         Some(error) => Err(error.into()),
         None => Ok(Arrival {
             state: member.state,
-            returns: find_return(frequency, &member.states).is_some(),
+            returns: find_recurrence(frequency, &member.states).is_some(),
             orbit: member.status.attractor().map(orbit),
         }),
     };

@@ -7,7 +7,7 @@ use super::{Group, Search, SearchMember};
 use crate::ensemble::MemberStatus;
 use crate::extremes::extremes;
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, OrbitError};
+use crate::orbit::{LyapunovExponents, OrbitError};
 use softstop::MotionError;
 
 impl Search<'_> {
@@ -39,7 +39,7 @@ impl Search<'_> {
             let starts = self.members.iter().filter(here).count();
             Attractor {
                 certainty: Some(known.certainty),
-                exponents: Some(Exponents::of(&known.orbit)),
+                exponents: Some(LyapunovExponents::of(&known.orbit)),
                 ..Attractor::from_orbit(&known.orbit, (starts, counted))
             }
         };

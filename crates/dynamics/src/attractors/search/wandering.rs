@@ -6,7 +6,7 @@ use super::super::chaos::Chaos;
 use super::super::group_logs::group_logs;
 use super::{BATCH_GROWTH, Group, Search};
 use crate::ensemble::{Member, MemberStatus};
-use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
+use crate::orbit::{LYAPUNOV_BATCH_PERIODS, LyapunovExponents, OrbitError};
 use softstop::Start;
 
 /// Relative error up to which a Lyapunov exponent is accurate enough.
@@ -76,12 +76,16 @@ impl Search<'_> {
 
     /// Measures the exponents along the motion from a state, over ever longer times until they are accurate, or the
     /// motion settles; the state then, and whether the motion still wandered.
-    fn measure_exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), OrbitError> {
-        let mut batch = BATCH_PERIODS.0;
+    fn measure_exponents(
+        &mut self,
+        state: Start,
+    ) -> Result<(LyapunovExponents, Start, bool), OrbitError> {
+        let mut batch = LYAPUNOV_BATCH_PERIODS.0;
         let mut best = None;
         loop {
             let ask = || self.ensemble.count_work(0);
-            let along = Exponents::along_motion_with_monitor(&self.scene, state.into(), batch, ask);
+            let along =
+                LyapunovExponents::along_motion_with_monitor(&self.scene, state.into(), batch, ask);
             let (exponents, end) = along?;
             self.ensemble.count_work(exponents.periods)?;
             let mut after = Member::new(0, end.into());
@@ -97,7 +101,7 @@ impl Search<'_> {
             let sharp = exponents.error < EXPONENT_ACCURACY * largest;
             let hopeless = largest <= exponents.error;
             batch *= BATCH_GROWTH;
-            if sharp || hopeless || batch > BATCH_PERIODS.1 {
+            if sharp || hopeless || batch > LYAPUNOV_BATCH_PERIODS.1 {
                 return Ok(found);
             }
             best = exponents.is_positive().then_some(found).or(best);

@@ -1,4 +1,4 @@
-//! Exact derivatives by a machine's parameters of orbits' figures ([`differentiate_orbit`]), [`stability()`] and
+//! Exact derivatives by a machine's parameters of orbits' figures ([`differentiate_orbit`]), [`differentiate_stability`] and
 //! [`Border`].
 //!
 //! The motion x(0) = P(x(0), p) is followed by the implicit function theorem, (1 - M) dx/dp = dP/dp; M and dP/dp come from
@@ -6,10 +6,10 @@
 //!
 //! ```
 //! use softstop::{Parameter, Ratios};
-//! use softstop_dynamics::{orbit, slopes};
+//! use softstop_dynamics::{derivatives, orbit};
 //!
 //! let orbit = orbit::find(&Ratios::unloaded().scene()?)?;
-//! let slopes = slopes::differentiate_orbit(&orbit, &[Parameter::Clearance, Parameter::Frequency])?;
+//! let slopes = derivatives::differentiate_orbit(&orbit, &[Parameter::Clearance, Parameter::Frequency])?;
 //! let velocity = &slopes.impacts[0].velocity;
 //! assert!((velocity.value - 6.494_627_429_363).abs() < 1e-9);
 //! assert!(velocity.by[1] > 0.0, "a faster drive strikes harder");
@@ -23,7 +23,7 @@ mod variation;
 
 pub use border::{Border, BorderKind};
 pub use figure_recorder::{DifferentiatedFigure, DifferentiatedImpact};
-pub use stability::{Stability, stability};
+pub use stability::{StabilityDerivatives, differentiate_stability};
 
 use softstop::Parameter;
 
@@ -33,7 +33,7 @@ use variation::Variation;
 /// The figures of a periodic motion with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Slopes {
+pub struct OrbitDerivatives {
     /// The parameters that the derivatives are by.
     pub parameters: Vec<Parameter>,
     /// Position in m at time 0.
@@ -57,7 +57,10 @@ pub struct Slopes {
 /// # Errors
 /// [`OrbitError::Motion`] with [`MotionError::NoDerivative`](softstop::MotionError) or [`SceneError::Lacks`](softstop::SceneError)
 /// where there is no derivative, or no parameter; [`OrbitError::NotIsolated`] at a fold.
-pub fn differentiate_orbit(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
+pub fn differentiate_orbit(
+    orbit: &Orbit,
+    parameters: &[Parameter],
+) -> Result<OrbitDerivatives, OrbitError> {
     let variation = Variation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let starts = variation.start_rates()?;
     let figure = |found: &DifferentiatedFigure| DifferentiatedFigure {
@@ -67,7 +70,7 @@ pub fn differentiate_orbit(orbit: &Orbit, parameters: &[Parameter]) -> Result<Sl
     let missing = || OrbitError::no_derivative(&variation.parameters);
     let watched = &variation.watched;
     let (position, velocity) = variation.start_state(&starts);
-    Ok(Slopes {
+    Ok(OrbitDerivatives {
         parameters: parameters.to_vec(),
         position,
         velocity,

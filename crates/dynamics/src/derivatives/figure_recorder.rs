@@ -241,7 +241,7 @@ pub(super) fn force_peaks<'a>(
 pub struct DifferentiatedFigure {
     /// The figure.
     pub value: f64,
-    /// Its derivatives in SI units, in the order of [`Slopes::parameters`](super::Slopes).
+    /// Its derivatives in SI units, in the order of [`OrbitDerivatives::parameters`](super::OrbitDerivatives).
     pub by: Vec<f64>,
 }
 

@@ -19,8 +19,8 @@ const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 /// ones down, and Newton's method is followed no farther than some cells.
 ///
 /// # Errors
-/// As [`all_single`](super::impact_lattice::all_single).
-pub(crate) fn harder_single(
+/// As [`single_impact_orbits`](super::impact_lattice::single_impact_orbits).
+pub(crate) fn harder_single_impact_orbit(
     scene: &CheckedScene,
     least: f64,
     monitor: Monitor<'_>,
@@ -85,9 +85,9 @@ impl SingleImpactSearch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Orbit, harder_single};
+    use super::{Orbit, harder_single_impact_orbit};
     use crate::monitor::unmonitored;
-    use crate::orbit::impact_lattice::all_single;
+    use crate::orbit::impact_lattice::single_impact_orbits;
     use softstop::{Machine, Parameter};
 
     #[test]
@@ -103,11 +103,12 @@ mod tests {
             for step in 0..40 {
                 let scene = machine.scene.at_frequency(0.4 * 1.06_f64.powi(step));
                 let scene = scene.check().expect("a scene");
-                let mut all = all_single(&scene, &unmonitored).expect("a scene");
+                let mut all = single_impact_orbits(&scene, &unmonitored).expect("a scene");
                 all.retain(Orbit::is_stable);
                 let hardest = all.last().map(Orbit::before_impact_velocity);
                 let above = |least| {
-                    let found = harder_single(&scene, least, &unmonitored).expect("a scene");
+                    let found =
+                        harder_single_impact_orbit(&scene, least, &unmonitored).expect("a scene");
                     found.map(|orbit| orbit.before_impact_velocity())
                 };
                 let Some(hardest) = hardest else {

@@ -17,14 +17,14 @@ const DIFFERENCE_AGREEMENT: f64 = 0.01;
 /// Trace and determinant of the monodromy matrix, with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Stability {
+pub struct StabilityDerivatives {
     /// The trace.
     pub trace: DifferentiatedFigure,
     /// The determinant.
     pub determinant: DifferentiatedFigure,
 }
 
-impl Stability {
+impl StabilityDerivatives {
     /// The modulus of the larger multiplier with its derivatives, which are infinite at a double one.
     pub fn largest_multiplier(&self) -> DifferentiatedFigure {
         let (trace, determinant) = (self.trace.value, self.determinant.value);
@@ -54,14 +54,17 @@ impl Stability {
 /// # Errors
 /// As [`differentiate_orbit`](super::differentiate_orbit); [`NoDerivative`](softstop::MotionError::NoDerivative) also where motions beside cross something
 /// else, however near.
-pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, OrbitError> {
+pub fn differentiate_stability(
+    orbit: &Orbit,
+    parameters: &[Parameter],
+) -> Result<StabilityDerivatives, OrbitError> {
     let variation = Variation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let rates = variation.stability_rates(&orbit.scene, orbit.periods)?;
     let figure = |value: f64, which: usize| DifferentiatedFigure {
         value,
         by: rates.iter().map(|rates| rates[which]).collect(),
     };
-    Ok(Stability {
+    Ok(StabilityDerivatives {
         trace: figure(orbit.monodromy.trace(), 0),
         determinant: figure(orbit.monodromy.determinant(), 1),
     })

@@ -11,8 +11,8 @@ use softstop::{CheckedScene, Clock, Parameter, Scene, SceneError};
 
 use super::variation::{Variation, phase_derivatives};
 use crate::continuation::{
-    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, TestFunction, derivatives_by,
-    find_grazing,
+    BranchPoint, Continuation, GrazingTouch, LastArc, SpecialKind, SpecialPoint, TestFunction,
+    derivatives_by, find_grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
@@ -135,8 +135,8 @@ impl Border {
             parameter: self.predicted_frequency(scene),
             ..near.clone()
         };
-        let Special { kind, point } = match motion {
-            SpecialKind::Critical(test) => Special {
+        let SpecialPoint { kind, point } = match motion {
+            SpecialKind::Critical(test) => SpecialPoint {
                 kind: motion,
                 point: Continuation::new(&family, *periods).locate(&guess, test)?,
             },
@@ -258,7 +258,7 @@ fn test_rates(
 fn grazing_rates(
     scene: &CheckedScene,
     periods: u64,
-    graze: &Graze,
+    graze: &GrazingTouch,
     (parameters, along): (&[Parameter], &[(Parameter, f64)]),
 ) -> Result<Vec<f64>, OrbitError> {
     let missing = || OrbitError::no_derivative(parameters);
@@ -267,7 +267,7 @@ fn grazing_rates(
         return Err(missing());
     }
     let scene = scene.clone().at_phase(graze.angle)?;
-    let place = graze.face.face_position(&scene).ok_or_else(missing)?;
+    let place = graze.face.surface_position(&scene).ok_or_else(missing)?;
     let start = Vector2::new(place, 0.0);
     let motion =
         LastArc::carry_past(&scene, start, (graze.crossings, Clock::at_cycle(periods)))?.motion;
