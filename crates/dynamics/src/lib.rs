@@ -64,7 +64,7 @@ pub use zone::Zone;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::attractors::region::evenly_spread_point;
-    pub use crate::continuation::period_map::carry_on;
+    pub use crate::continuation::period_map::advance_in_period;
     pub use crate::cycle_metrics::peak_contact_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;

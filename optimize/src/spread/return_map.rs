@@ -4,7 +4,7 @@ use nalgebra::{RowVector2, Vector2};
 
 use softstop::{Arc, CheckedScene, Clock, Crossing, MotionError, Observer, Scene, Tangent};
 use softstop_dynamics::continuation::{BranchPoint, TestFunction};
-use softstop_dynamics::internals::carry_on;
+use softstop_dynamics::internals::advance_in_period;
 use softstop_dynamics::orbit::Monodromy;
 
 /// Periods that are looked at before a motion is given up.
@@ -37,7 +37,7 @@ impl ReturnMap {
     fn at(scene: &CheckedScene, state: Vector2<f64>) -> Result<Self, MotionError> {
         let mut motion = scene.motion(state.into())?;
         let mut once = Self::default();
-        carry_on(&mut motion, Clock::at_cycle(1), &mut once)?;
+        advance_in_period(&mut motion, Clock::at_cycle(1), &mut once)?;
         motion.tell_arc(&mut once);
         once.end = motion.state().into();
         Ok(once)

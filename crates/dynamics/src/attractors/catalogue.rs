@@ -81,8 +81,8 @@ impl AttractorCatalogue {
 
     /// True if dry friction holds the mass at a state: not one orbit among others, but any place where it does.
     fn is_at_rest(&self, state: &Start) -> Result<bool, OrbitError> {
-        let passage = StroboscopicMap::new(&self.scene, 1).apply((*state).into())?;
-        Ok(passage.is_at_rest(state, self.drive_frequency()))
+        let period = StroboscopicMap::new(&self.scene, 1).apply((*state).into())?;
+        Ok(period.is_at_rest(state, self.drive_frequency()))
     }
 
     /// The known orbit that is the same as another one with these states, if there is one.

@@ -1,18 +1,22 @@
 //! Whole branches of orbits: both directions, every special point on the way, and why they end.
 
+use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Vector2};
 
-use super::arclength::{Ends, Node};
-use super::curve::MIN_LOOP_POINTS;
-use super::follow::{Continuation, SectionChange};
+use super::bifurcation_curve::MIN_LOOP_POINTS;
+use super::chord_and_cubic::passes_place;
+use super::equations::{CurveNode, StepEnds};
 use super::grazing_test::GrazingTest;
-use super::locate::{locate_zero, passes_place};
+use super::half_branch::HalfBranch;
+use super::locate_zero::locate_zero;
 use super::period_map::PeriodMap;
-use super::point::{BranchEnd, BranchLimits, BranchPoint, HalfBranch, SpecialKind, SpecialPoint};
 use super::stepper::Stepper;
-use super::test_function::TestFunction;
+use super::stroboscopic_section::SectionChange;
+use super::{
+    BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint, TestFunction,
+};
 use crate::direction::Direction;
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
@@ -84,12 +88,12 @@ impl<'a> Continuation<'a> {
     }
 
     /// The drive periods after which an orbit really repeats.
-    fn minimal_period(&self, node: &Node<PeriodMap>) -> u64 {
+    fn minimal_period(&self, node: &CurveNode<PeriodMap>) -> u64 {
         let periods = self.shooting.periods;
         let returns = |after: &u64| {
             let way =
                 node.here.point.trajectory.at_cycle(*after) - self.shooting.state_at(&node.at);
-            self.shooting.scaled(way, [0.0]).norm() < SAME
+            self.shooting.scaled_unknowns(way, [0.0]).norm() < SAME
         };
         (1..periods)
             .filter(|after| periods.is_multiple_of(*after))
@@ -100,7 +104,7 @@ impl<'a> Continuation<'a> {
     /// The branch of two halves, joined at their start.
     pub(super) fn join_halves(
         &self,
-        start: &Node<PeriodMap>,
+        start: &CurveNode<PeriodMap>,
         mut down: HalfBranch,
         up: HalfBranch,
     ) -> Result<Branch, OrbitError> {
@@ -120,7 +124,7 @@ impl<'a> Continuation<'a> {
     /// Follows half a branch, in one direction from a node, from section to section.
     pub(super) fn follow_half(
         &self,
-        start: Node<PeriodMap>,
+        start: CurveNode<PeriodMap>,
         along: &DVector<f64>,
         limits: &BranchLimits,
         watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
@@ -128,21 +132,21 @@ impl<'a> Continuation<'a> {
         let mut way = HalfBranch::empty(BranchEnd::Points);
         let origin = self.point_at(&start)?;
         self.follow_sections((start, along), |continuation, begin| {
-            continuation.follow_section(&mut way, begin, &origin, limits, watch)
+            continuation.follow_half_at_section(&mut way, begin, &origin, limits, watch)
         })?;
         Ok(way)
     }
 
     /// Follows half a branch as long as this section serves; then how it goes on, if it does.
-    fn follow_section(
+    fn follow_half_at_section(
         &self,
         way: &mut HalfBranch,
-        (start, along): (Node<PeriodMap>, &DVector<f64>),
+        (start, along): (CurveNode<PeriodMap>, &DVector<f64>),
         origin: &BranchPoint,
         limits: &BranchLimits,
         watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Option<SectionChange<'a>>, OrbitError> {
-        let origin = self.place_of(origin)?;
+        let origin = self.unknowns_of(origin)?;
         let mut grazing_test = GrazingTest::of_node(&self.shooting, &start);
         let mut stepper = Stepper::new(&self.shooting, start, along, &self.settings)?;
         // Since the last corner, if one was passed.
@@ -166,7 +170,7 @@ impl<'a> Continuation<'a> {
             });
             match step {
                 Ok((step, ahead, end)) => {
-                    grazing_test = ahead.after_step(&grazing_test, stepper.step);
+                    grazing_test = ahead.with_losses_on_step(&grazing_test, stepper.step);
                     stepper.step_to(step);
                     goes_on = true;
                     let stopped = way
@@ -189,7 +193,7 @@ impl<'a> Continuation<'a> {
                         way.turned_at = Some(way.points.len());
                         return Ok(Some(turned));
                     }
-                    if way.end_in_grazing(self.graze_ahead(&stepper, &grazing_test)) {
+                    if way.end_in_grazing(self.grazing_end_ahead(&stepper, &grazing_test)) {
                         return Ok(None);
                     }
                     if stepper.shorten_step() {
@@ -228,14 +232,14 @@ impl<'a> Continuation<'a> {
     fn record_step(
         &self,
         way: &mut HalfBranch,
-        (from, to): Ends<'_, PeriodMap>,
+        (from, to): StepEnds<'_, PeriodMap>,
         mut specials: Vec<SpecialPoint>,
         origin: &DVector<f64>,
         limits: &BranchLimits,
     ) -> Result<Option<BranchEnd>, OrbitError> {
         let closes =
             way.points.len() >= MIN_LOOP_POINTS && passes_place(&self.shooting, (from, to), origin);
-        let bound = self.bound_passed((from, to), limits);
+        let bound = self.range_end_passed((from, to), limits);
         let merged = match bound {
             None => self.merging_point((from, to))?,
             Some(_) => None,
@@ -243,11 +247,12 @@ impl<'a> Continuation<'a> {
         let (last, end) = match (bound, merged) {
             (Some((_, true)), _) => return Ok(Some(BranchEnd::Range)),
             (Some((bound, false)), _) => {
-                let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
+                let test =
+                    |node: &CurveNode<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
                 let (node, _) = locate_zero(&self.shooting, (from, to), test)?;
-                let sequence = node.here.point.sequence;
+                let counts = node.here.point.counts;
                 let is_end =
-                    |end: &&Node<PeriodMap>| end.here.point.sequence.has_same_jumps(&sequence);
+                    |end: &&CurveNode<PeriodMap>| end.here.point.counts.has_same_jumps(&counts);
                 if ![from, to].iter().any(is_end) {
                     return Err(OrbitError::LOST);
                 }
@@ -261,7 +266,7 @@ impl<'a> Continuation<'a> {
             }
             (None, Some((point, end))) => {
                 // Beyond, the orbits are those before, half a period later, or have no gap.
-                let gap_at = |node: &Node<PeriodMap>| {
+                let gap_at = |node: &CurveNode<PeriodMap>| {
                     let gap = self.merging_gap(node);
                     gap.map_or(0.0, |gap| gap.norm())
                 };

@@ -1,16 +1,17 @@
 //! Points of codimension two on curves of special points, and the systems that these curves solve.
 
+use std::fmt::Debug;
+
 use nalgebra::{DVector, Vector2};
 
-use super::Family;
-use super::arclength::{Equations, Node, correct};
+use super::crossing_counts::CrossingCounts;
+use super::equations::{CurveNode, Equations};
+use super::impact_section_orbit::ImpactSectionOrbit;
+use super::impact_section_system::ImpactSectionSystem;
+use super::newton_corrector::correct;
 use super::period_map::PeriodMap;
-use super::point::GrazingTouch;
-use super::section_orbit::SectionPoint;
-use super::section_system::SectionSystem;
-use super::sequence::Sequence;
-use super::shooting::Critical;
-use super::test_function::{TestFunction, normal_form_coefficient};
+use super::stroboscopic_shooting::CriticalShooting;
+use super::{Family, GrazingTouch, TestFunction, normal_form_coefficient};
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 
 /// A point of a curve of special points in two parameters.
@@ -80,7 +81,7 @@ pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
 }
 
 /// A system whose solutions are special points in two parameters, its last two unknowns: it makes a curve.
-pub(super) trait Codimension: Equations {
+pub(super) trait SpecialPointEquations: Equations {
     /// The machines of the curve, and the drive periods of its orbits.
     fn family_and_periods(&self) -> (&dyn Family<2>, u64);
     /// The test that vanishes on the curve; none on one of grazing.
@@ -88,7 +89,7 @@ pub(super) trait Codimension: Equations {
     /// The state of the orbit at time 0 for these unknowns.
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
     /// The before-impact velocities of the orbit of a point, its Jacobian, and what it crosses.
-    fn orbit_of(point: &Self::Point) -> (&[f64], Monodromy, Sequence);
+    fn orbit_of(point: &Self::Point) -> (&[f64], Monodromy, CrossingCounts);
 
     /// Values of the two parameters of these unknowns.
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
@@ -97,7 +98,7 @@ pub(super) trait Codimension: Equations {
     }
 
     /// The point of the curve at a node.
-    fn curve_point(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError> {
+    fn curve_point(&self, node: &CurveNode<Self::Point>) -> Result<CurvePoint, OrbitError> {
         let state = self.state_at(&node.at)?;
         let (impacts, monodromy, _) = Self::orbit_of(&node.here.point);
         Ok(CurvePoint {
@@ -110,7 +111,7 @@ pub(super) trait Codimension: Equations {
     }
 
     /// The test of resonant grazing at a node of a curve of grazing; none on other curves.
-    fn resonance_test(&self, node: &Node<Self::Point>) -> Option<(CodimensionTwo, f64)> {
+    fn resonance_test(&self, node: &CurveNode<Self::Point>) -> Option<(CodimensionTwo, f64)> {
         let _ = node;
         None
     }
@@ -120,7 +121,7 @@ pub(super) trait Codimension: Equations {
     /// back, at a generalised flip the coefficient of the normal form vanishes.
     fn degeneracy_test(
         &self,
-        node: &Node<Self::Point>,
+        node: &CurveNode<Self::Point>,
         [before, here]: [&DVector<f64>; 2],
     ) -> (CodimensionTwo, f64) {
         if let Some(found) = self.resonance_test(node) {
@@ -142,7 +143,7 @@ pub(super) trait Codimension: Equations {
     /// The point of codimension two in which the curve ends within a step from a node, if it does.
     fn ending_point(
         &self,
-        node: &Node<Self::Point>,
+        node: &CurveNode<Self::Point>,
         step: &DVector<f64>,
     ) -> Option<(CodimensionTwo, CurvePoint)> {
         let _ = (node, step);
@@ -164,7 +165,7 @@ pub(super) trait Codimension: Equations {
     }
 }
 
-impl Codimension for Critical<'_, 2> {
+impl SpecialPointEquations for CriticalShooting<'_, 2> {
     fn family_and_periods(&self) -> (&dyn Family<2>, u64) {
         (self.shooting.family, self.shooting.periods)
     }
@@ -177,12 +178,12 @@ impl Codimension for Critical<'_, 2> {
         Ok(self.shooting.state_at(at))
     }
 
-    fn orbit_of(round: &PeriodMap) -> (&[f64], Monodromy, Sequence) {
-        (&round.impacts, round.monodromy, round.sequence)
+    fn orbit_of(round: &PeriodMap) -> (&[f64], Monodromy, CrossingCounts) {
+        (&round.impacts, round.monodromy, round.counts)
     }
 }
 
-impl Codimension for SectionSystem<'_, 2> {
+impl SpecialPointEquations for ImpactSectionSystem<'_, 2> {
     fn family_and_periods(&self) -> (&dyn Family<2>, u64) {
         (self.family, self.periods)
     }
@@ -195,16 +196,19 @@ impl Codimension for SectionSystem<'_, 2> {
         self.state(at)
     }
 
-    fn orbit_of(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
-        (&point.impacts, point.monodromy, point.crossing_sequence())
+    fn orbit_of(point: &ImpactSectionOrbit) -> (&[f64], Monodromy, CrossingCounts) {
+        (&point.impacts, point.monodromy, point.crossing_counts())
     }
 
-    fn resonance_test(&self, node: &Node<SectionPoint>) -> Option<(CodimensionTwo, f64)> {
+    fn resonance_test(
+        &self,
+        node: &CurveNode<ImpactSectionOrbit>,
+    ) -> Option<(CodimensionTwo, f64)> {
         if self.critical_test().is_some() {
             return None;
         }
         let scene = self.scene_at(0.0, self.parameters(&node.at));
-        let is_hard = scene.is_ok_and(|(scene, _)| self.face.is_steep(&scene));
+        let is_hard = scene.is_ok_and(|(scene, _)| self.face.has_square_root(&scene));
         let value = node.here.point.response;
         let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
         Some((kind, if is_hard { value } else { 0.0 }))
@@ -212,7 +216,7 @@ impl Codimension for SectionSystem<'_, 2> {
 
     fn ending_point(
         &self,
-        node: &Node<SectionPoint>,
+        node: &CurveNode<ImpactSectionOrbit>,
         step: &DVector<f64>,
     ) -> Option<(CodimensionTwo, CurvePoint)> {
         self.critical_test()?;

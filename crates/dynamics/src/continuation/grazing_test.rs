@@ -2,15 +2,16 @@
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
+use std::fmt::Debug;
 
-use super::Family;
-use super::arclength::{Node, correct};
-use super::face::{NearTouch, SwitchingSurface};
+use super::equations::CurveNode;
+use super::impact_section_orbit::ImpactSectionOrbit;
+use super::impact_section_system::ImpactSectionSystem;
+use super::newton_corrector::correct;
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, GrazingTouch, SpecialKind, SpecialPoint};
-use super::section_orbit::SectionPoint;
-use super::section_system::SectionSystem;
-use super::shooting::Shooting;
+use super::stroboscopic_shooting::Shooting;
+use super::switching_surface::NearGrazing;
+use super::{BranchPoint, Family, GrazingTouch, SpecialKind, SpecialPoint, SwitchingSurface};
 use crate::orbit::OrbitError;
 use softstop::internals::turning_points;
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};
@@ -19,12 +20,12 @@ use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 #[derive(Debug, Clone)]
 pub(crate) struct GrazingTest {
     /// The slowest crossing, which may die.
-    dying: Option<NearTouch>,
-    rising: Option<NearTouch>,
+    dying: Option<NearGrazing>,
+    rising: Option<NearGrazing>,
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
     /// Which faces an orbit can graze smoothly.
-    gentle: [bool; SwitchingSurface::ALL.len()],
+    continuous: [bool; SwitchingSurface::ALL.len()],
     parameter: f64,
     /// True if the orbit is its own mirror image half its period later: touches come in pairs.
     is_symmetric: bool,
@@ -41,9 +42,9 @@ pub(crate) struct GrazingTest {
 
 impl GrazingTest {
     /// The grazing test of the orbit at a node.
-    pub fn of_node(shooting: &Shooting<'_, 1>, node: &Node<PeriodMap>) -> Self {
+    pub fn of_node(shooting: &Shooting<'_, 1>, node: &CurveNode<PeriodMap>) -> Self {
         let round = &node.here.point;
-        let total = round.sequence.crossing_count();
+        let total = round.counts.crossing_count();
         let motion = &round.trajectory;
         let scene = &motion.scene;
         let taken = round
@@ -51,7 +52,7 @@ impl GrazingTest {
             .map_or(0, |touch| crossings_with(motion, touch.time));
         Self {
             dying: round.slowest,
-            gentle: SwitchingSurface::ALL.map(|face| face.is_gentle(scene)),
+            continuous: SwitchingSurface::ALL.map(|face| face.is_force_continuous(scene)),
             rising: nearest_turn(motion, scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
@@ -65,9 +66,11 @@ impl GrazingTest {
     }
 
     /// This grazing test with what its distances have lost on the step from the test before.
-    pub fn after_step(self, before: &Self, step: f64) -> Self {
-        let loss = |(then, now): (Option<NearTouch>, Option<NearTouch>)| match (then, now) {
-            (Some(then), Some(now)) if then.face == now.face && self.is_gentle(now.face) => {
+    pub fn with_losses_on_step(self, before: &Self, step: f64) -> Self {
+        let loss = |(then, now): (Option<NearGrazing>, Option<NearGrazing>)| match (then, now) {
+            (Some(then), Some(now))
+                if then.face == now.face && self.is_force_continuous(now.face) =>
+            {
                 (then.amount - now.amount) / step
             }
             _ => 0.0,
@@ -78,7 +81,7 @@ impl GrazingTest {
 
     /// True if a step may graze twice: a distance to a smooth grazing would vanish on it, no crossing changes.
     pub fn may_graze_twice(&self, ahead: &Self, step: f64) -> bool {
-        let vanishes = |(touch, loss): (Option<NearTouch>, f64)| {
+        let vanishes = |(touch, loss): (Option<NearGrazing>, f64)| {
             touch.is_some_and(|touch| touch.amount < loss * step)
         };
         self.crossings.0 == ahead.crossings.0
@@ -89,9 +92,9 @@ impl GrazingTest {
     }
 
     /// True if a step leaves at least `share` of each distance to a grazing that is not smooth, or more than `near`.
-    pub fn may_step(&self, before: &Self, share: f64, near: f64) -> bool {
-        let leaves = |now: Option<NearTouch>, then: Option<NearTouch>| match (now, then) {
-            (Some(now), Some(then)) if !self.is_gentle(now.face) => {
+    pub fn keeps_share_of_distances(&self, before: &Self, share: f64, near: f64) -> bool {
+        let leaves = |now: Option<NearGrazing>, then: Option<NearGrazing>| match (now, then) {
+            (Some(now), Some(then)) if !self.is_force_continuous(now.face) => {
                 now.amount >= share * then.amount || now.amount < near * self.speed
             }
             _ => true,
@@ -100,15 +103,16 @@ impl GrazingTest {
     }
 
     /// True if a crossing with a jump of the force is slower than that (scaled): it is about to die.
-    pub fn dies_within(&self, near: f64) -> bool {
-        let dies =
-            |touch: NearTouch| touch.amount < near * self.speed && !self.is_gentle(touch.face);
+    pub fn dies_closer_than(&self, near: f64) -> bool {
+        let dies = |touch: NearGrazing| {
+            touch.amount < near * self.speed && !self.is_force_continuous(touch.face)
+        };
         self.dying.is_some_and(dies)
     }
 
     /// True if an orbit can graze a face smoothly.
-    pub fn is_gentle(&self, face: SwitchingSurface) -> bool {
-        self.gentle[face as usize]
+    pub fn is_force_continuous(&self, face: SwitchingSurface) -> bool {
+        self.continuous[face as usize]
     }
 
     /// The grazing orbits that Newton's method reaches from the tested one, computed once.
@@ -134,16 +138,16 @@ impl GrazingTest {
             .into_iter()
             .filter_map(|(touch, dies)| {
                 let (touch, crossings) = touch?;
-                self.grazing_at(shooting, &touch, crossings, dies).ok()
+                self.solve_grazing(shooting, &touch, crossings, dies).ok()
             })
             .collect()
     }
 
     /// The grazing orbit that Newton's method reaches from a near touch.
-    fn grazing_at(
+    fn solve_grazing(
         &self,
         shooting: &Shooting<'_, 1>,
-        touch: &NearTouch,
+        touch: &NearGrazing,
         crossings: usize,
         dies: bool,
     ) -> Result<SpecialPoint, OrbitError> {
@@ -169,12 +173,12 @@ pub(crate) fn find_grazing(
     phase: f64,
     parameter: f64,
 ) -> Result<SpecialPoint, OrbitError> {
-    let touching = SectionSystem::of_graze(near, (family, periods));
+    let touching = ImpactSectionSystem::of_graze(near, (family, periods));
     let guess = touching.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.parameters(&node.at);
     let state = touching.state(&node.at)?;
-    let SectionPoint {
+    let ImpactSectionOrbit {
         monodromy,
         impacts,
         is_cut,
@@ -201,7 +205,7 @@ pub(crate) fn find_grazing(
 }
 
 /// The turning point of a motion that comes nearest to a surface of the scene ahead of it, if any turns before one.
-fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearTouch> {
+fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearGrazing> {
     let faces = SwitchingSurface::ALL.into_iter();
     let faces = faces.filter_map(|face| Some((face, face.surface_position(scene)?)));
     let faces: Vec<(SwitchingSurface, f64)> = faces.collect();
@@ -219,7 +223,7 @@ fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearTouch> {
     let touches = on_arcs.chain(reversals);
     let touches = touches.flat_map(|(back, time, position, reverses)| {
         let side = if back { 1.0 } else { -1.0 };
-        faces.iter().map(move |&(face, level)| NearTouch {
+        faces.iter().map(move |&(face, level)| NearGrazing {
             time,
             amount: side * (level - position),
             face,

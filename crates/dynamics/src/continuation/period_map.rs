@@ -1,11 +1,12 @@
 //! The map over the drive periods of an orbit, with all that a continuation needs to know.
 
+use std::fmt::Debug;
 use std::sync::Arc as Shared;
 
 use nalgebra::{DVector, Vector2};
 
-use super::face::NearTouch;
-use super::sequence::{CountedCrossings, Sequence};
+use super::crossing_counts::{CountedCrossings, CrossingCounts};
+use super::switching_surface::NearGrazing;
 use crate::orbit::Monodromy;
 use crate::record_trajectory::record_trajectory;
 use crate::tolerance::ROUNDING;
@@ -28,9 +29,9 @@ pub(crate) struct PeriodMap {
     /// Before-impact velocities in m/s, in order of time.
     pub impacts: Vec<f64>,
     /// How often the motion crosses what.
-    pub sequence: Sequence,
+    pub counts: CrossingCounts,
     /// The slowest crossing of a surface.
-    pub slowest: Option<NearTouch>,
+    pub slowest: Option<NearGrazing>,
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
     /// Arcs and crossings of the motion.
@@ -46,10 +47,10 @@ impl PeriodMap {
         (place, state): (&DVector<f64>, Vector2<f64>),
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let start = before_wall(&scene, state);
+        let start = clamp_to_walls(&scene, state);
         let end = Clock::at_cycle(periods);
         let trajectory = record_trajectory(&scene, start, |motion, kept| {
-            carry_through(motion, end, kept)
+            advance_over_periods(motion, end, kept)
         })?;
         let mut sensitivity = FrequencySensitivity::default();
         if by_frequency {
@@ -76,7 +77,7 @@ impl PeriodMap {
             },
             by_frequency: by_frequency.flatten(),
             impacts: crossings.impact_velocities().collect(),
-            sequence: crossings.count_crossings(&scene),
+            counts: crossings.counts(&scene),
             slowest: crossings.slowest_crossing(),
             margin,
             trajectory: trajectory.into(),
@@ -100,7 +101,7 @@ fn crossing_margin(trajectory: &Trajectory, periods: u64) -> f64 {
 }
 
 /// The instant after half of so many drive periods of a scene.
-pub(super) fn half_way(scene: &Scene, periods: u64) -> Instant {
+pub(super) fn half_way_instant(scene: &Scene, periods: u64) -> Instant {
     Instant {
         offset: 0.5 * (periods % 2) as f64 * scene.period(),
         ..Clock::at_cycle(periods / 2)
@@ -108,7 +109,7 @@ pub(super) fn half_way(scene: &Scene, periods: u64) -> Instant {
 }
 
 /// The state of a motion of a scene so many drive periods after one at time 0.
-pub(super) fn state_after(
+pub(super) fn state_after_periods(
     scene: &CheckedScene,
     state: Vector2<f64>,
     periods: f64,
@@ -116,12 +117,12 @@ pub(super) fn state_after(
     let clock = scene.clock();
     let mut motion = scene.motion(state.into())?;
     let end = clock.instant(periods * clock.period());
-    carry_through(&mut motion, end, &mut ())?;
+    advance_over_periods(&mut motion, end, &mut ())?;
     Ok(motion.state().into())
 }
 
 /// A state, moved to the face of a rigid stop from beyond or from rest near it, so that the map stays continuous.
-pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn clamp_to_walls(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
     let (lowest, highest) = scene.reach();
     let scales = scene.scales();
     let is_near = |wall: &f64| (wall - state.x).abs() < ROUNDING * scales.length;
@@ -141,7 +142,7 @@ const MAX_PERIOD_WORK: u64 = 1 << 21;
 ///
 /// # Errors
 /// [`MotionError`] if it cannot be computed.
-pub fn carry_on(
+pub fn advance_in_period(
     motion: &mut Motion,
     until: Instant,
     observer: &mut dyn Observer,
@@ -160,13 +161,13 @@ pub fn carry_on(
 }
 
 /// Carries a motion from time 0 on, one drive period after the other, and by what is left of one to the end.
-pub(super) fn carry_through(
+pub(super) fn advance_over_periods(
     motion: &mut Motion,
     end: Instant,
     observer: &mut dyn Observer,
 ) -> Result<(), MotionError> {
     for cycle in 1..=end.cycles as u64 {
-        carry_on(motion, Clock::at_cycle(cycle), observer)?;
+        advance_in_period(motion, Clock::at_cycle(cycle), observer)?;
     }
-    carry_on(motion, end, observer)
+    advance_in_period(motion, end, observer)
 }

@@ -2,12 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::arclength::{Ends, Node};
-use super::follow::Continuation;
-use super::locate::{MAX_CHORD_DISTANCE, along_chord, locate_zero, solve_zero};
+use super::chord_and_cubic::along_chord;
+use super::equations::{CurveNode, StepEnds};
+use super::locate_zero::{locate_zero, solve_zero};
 use super::period_map::PeriodMap;
-use super::point::{BranchLimits, BranchPoint};
-use super::test_function::TestFunction;
+use super::{BranchLimits, BranchPoint, Continuation, MAX_CHORD_DISTANCE, TestFunction};
 use crate::orbit::OrbitError;
 use crate::tolerance::ROUNDING;
 
@@ -25,20 +24,23 @@ impl Continuation<'_> {
         to: &BranchPoint,
         test: TestFunction,
     ) -> Result<BranchPoint, OrbitError> {
-        self.find_clear(from, to, |continuation, ends| {
+        self.find_at_clear_section(from, to, |continuation, ends| {
             continuation.critical_of_nodes(ends, test)
         })
     }
 
     /// Finds a point between two neighbours of a branch, seen at a section with no crossing near.
-    fn find_clear(
+    fn find_at_clear_section(
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
-        find: impl Fn(&Self, Ends<'_, PeriodMap>) -> Result<BranchPoint, OrbitError>,
+        find: impl Fn(&Self, StepEnds<'_, PeriodMap>) -> Result<BranchPoint, OrbitError>,
     ) -> Result<BranchPoint, OrbitError> {
         let ends = (self.node_at(from)?, self.node_at(to)?);
-        match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
+        match self
+            .with_clear_section(&ends.0)
+            .or_else(|| self.with_clear_section(&ends.1))
+        {
             None => find(self, (&ends.0, &ends.1)),
             Some(clear) => find(&clear, (&clear.node_at(from)?, &clear.node_at(to)?)),
         }
@@ -47,12 +49,12 @@ impl Continuation<'_> {
     /// The point between two nodes at which a test vanishes.
     fn critical_of_nodes(
         &self,
-        ends: Ends<'_, PeriodMap>,
+        ends: StepEnds<'_, PeriodMap>,
         test: TestFunction,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |round: &PeriodMap| test.scaled_value(&round.monodromy);
         let node = solve_zero(&self.shooting, ends, value).or_else(|_| {
-            let value = |node: &Node<PeriodMap>| value(&node.here.point);
+            let value = |node: &CurveNode<PeriodMap>| value(&node.here.point);
             locate_zero(&self.shooting, ends, value).map(|(node, _)| node)
         })?;
         self.point_at(&node)
@@ -61,10 +63,10 @@ impl Continuation<'_> {
     /// The point between two nodes at a value of the parameter.
     fn parameter_of_nodes(
         &self,
-        ends: Ends<'_, PeriodMap>,
+        ends: StepEnds<'_, PeriodMap>,
         parameter: f64,
     ) -> Result<BranchPoint, OrbitError> {
-        let value = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - parameter;
+        let value = |node: &CurveNode<PeriodMap>| self.shooting.parameters(&node.at)[0] - parameter;
         let (node, _) = locate_zero(&self.shooting, ends, value)?;
         self.point_at(&node)
     }
@@ -87,7 +89,7 @@ impl Continuation<'_> {
                 return Ok(point);
             }
         }
-        let located = self.find_clear(from, to, |continuation, ends| {
+        let located = self.find_at_clear_section(from, to, |continuation, ends| {
             continuation.parameter_of_nodes(ends, parameter)
         });
         match located {
@@ -96,13 +98,18 @@ impl Continuation<'_> {
             }
             other => {
                 let lost = other.err().unwrap_or(OrbitError::LOST);
-                self.walk_to(from, to, parameter).ok_or(lost)
+                self.follow_to(from, to, parameter).ok_or(lost)
             }
         }
     }
 
     /// The point between two neighbours, followed from one of them where no guess between them leads to it.
-    fn walk_to(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
+    fn follow_to(
+        &self,
+        from: &BranchPoint,
+        to: &BranchPoint,
+        parameter: f64,
+    ) -> Option<BranchPoint> {
         [from, to].into_iter().find_map(|end| {
             let limits = BranchLimits {
                 range: (parameter.min(end.parameter), parameter.max(end.parameter)),
@@ -121,7 +128,10 @@ impl Continuation<'_> {
 
     /// True if a point lies beside the chord between two neighbours of a branch, and on their side of a fold.
     fn is_between(&self, (from, to): (&BranchPoint, &BranchPoint), point: &BranchPoint) -> bool {
-        let place = |point: &BranchPoint| self.shooting.scaled(point.state(), [point.parameter]);
+        let place = |point: &BranchPoint| {
+            self.shooting
+                .scaled_unknowns(point.state(), [point.parameter])
+        };
         let (begin, way) = (place(from), place(to) - place(from));
         let (along, off) = along_chord((&begin, &way), &place(point));
         let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;

@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arclength::{Accuracy, Equations, Node, correct_with_slopes, curve_tangent};
-use super::settings::ContinuationSettings;
+use super::continuation_settings::ContinuationSettings;
+use super::equations::{CurveNode, Equations};
+use super::newton_corrector::{Accuracy, correct_with_columns, curve_tangent};
 use crate::orbit::OrbitError;
 
 /// Crawling steps in a row after which a curve is given up.
@@ -15,9 +16,9 @@ const HUGE_SHARE: f64 = 0.01;
 /// A stepper along a solution curve, with adaptive steps.
 pub(crate) struct Stepper<'a, E: Equations> {
     equations: &'a E,
-    pub node: Node<E::Point>,
+    pub node: CurveNode<E::Point>,
     pub direction: DVector<f64>,
-    slopes: DMatrix<f64>,
+    columns: DMatrix<f64>,
     /// The last node and the direction there.
     last: Option<(DVector<f64>, DVector<f64>)>,
     accuracy: Accuracy,
@@ -30,9 +31,9 @@ pub(crate) struct Stepper<'a, E: Equations> {
 
 /// A step along a curve that can be taken.
 pub(crate) struct CurveStep<P> {
-    pub node: Node<P>,
+    pub node: CurveNode<P>,
     pub direction: DVector<f64>,
-    slopes: DMatrix<f64>,
+    columns: DMatrix<f64>,
     growth: f64,
 }
 
@@ -40,11 +41,11 @@ impl<'a, E: Equations> Stepper<'a, E> {
     /// A stepper from a node on the side of `along`.
     pub fn new(
         equations: &'a E,
-        node: Node<E::Point>,
+        node: CurveNode<E::Point>,
         along: &DVector<f64>,
         settings: &ContinuationSettings,
     ) -> Result<Self, OrbitError> {
-        let (direction, slopes) = curve_tangent(equations, &node, along)?;
+        let (direction, columns) = curve_tangent(equations, &node, along)?;
         Ok(Self {
             equations,
             last: None,
@@ -52,7 +53,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
             is_renewed: false,
             node,
             direction,
-            slopes,
+            columns,
             step: settings.first_step.min(settings.largest_step),
             settings: *settings,
             crawled: 0,
@@ -73,10 +74,10 @@ impl<'a, E: Equations> Stepper<'a, E> {
     /// Attempts a step of the present length: the next node of the curve.
     pub fn attempt_step(&self) -> Result<CurveStep<E::Point>, OrbitError> {
         let guess = self.predict();
-        let mut slopes = Some(self.slopes.clone());
+        let mut columns = Some(self.columns.clone());
         let (equations, across) = (self.equations, Some(&self.direction));
-        let node = correct_with_slopes(equations, &guess, across, &mut slopes, self.accuracy)?;
-        let (direction, slopes) = curve_tangent(equations, &node, &self.direction)?;
+        let node = correct_with_columns(equations, &guess, across, &mut columns, self.accuracy)?;
+        let (direction, columns) = curve_tangent(equations, &node, &self.direction)?;
         let turn = direction.dot(&self.direction);
         let least = self.settings.min_turn_cosine;
         // A node farther off than the largest turn allows lies on another curve.
@@ -92,7 +93,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         Ok(CurveStep {
             node,
             direction,
-            slopes,
+            columns,
             growth,
         })
     }
@@ -119,15 +120,15 @@ impl<'a, E: Equations> Stepper<'a, E> {
         let mean = way / far;
         let (ahead, share) = (&self.direction - mean, self.step / far);
         let cubic = 2.0 * &ahead - &turn;
-        let bend = self.step * share * ((&ahead + &cubic) + share * cubic);
-        let leans =
-            self.accuracy == Accuracy::Quick || self.equations.is_steep(&self.node.here.point);
+        let apply_beyond_limit = self.step * share * ((&ahead + &cubic) + share * cubic);
+        let leans = self.accuracy == Accuracy::Quick
+            || self.equations.needs_close_guess(&self.node.here.point);
         let along = if leans {
             0.0
         } else {
-            bend.dot(&self.direction)
+            apply_beyond_limit.dot(&self.direction)
         };
-        straight + bend - along * &self.direction
+        straight + apply_beyond_limit - along * &self.direction
     }
 
     /// Takes a step: goes to its node, with the next length.
@@ -135,7 +136,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         let last = std::mem::replace(&mut self.node, step.node);
         let before = std::mem::replace(&mut self.direction, step.direction);
         self.last = Some((last.at, before));
-        self.slopes = step.slopes;
+        self.columns = step.columns;
         self.is_renewed = false;
         self.crawled = match self.step < self.settings.crawling_step {
             true => self.crawled + 1,
@@ -169,15 +170,15 @@ impl<'a, E: Equations> Stepper<'a, E> {
     /// Corrects the node and the direction there to the last digit.
     fn renew_node(&mut self) -> Result<(), OrbitError> {
         let across = Some(&self.direction);
-        let node = correct_with_slopes(
+        let node = correct_with_columns(
             self.equations,
             &self.node.at,
             across,
             &mut None,
             Accuracy::Full,
         )?;
-        let (direction, slopes) = curve_tangent(self.equations, &node, &self.direction)?;
-        (self.node, self.direction, self.slopes, self.last) = (node, direction, slopes, None);
+        let (direction, columns) = curve_tangent(self.equations, &node, &self.direction)?;
+        (self.node, self.direction, self.columns, self.last) = (node, direction, columns, None);
         Ok(())
     }
 }

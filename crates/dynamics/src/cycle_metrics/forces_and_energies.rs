@@ -35,7 +35,7 @@ pub fn peak_contact_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64
 }
 
 /// Largest contact force in N of a motion in phases of these kinds; 0 if it is pressed in none.
-pub(super) fn largest_force(motion: &Trajectory, kinds: &[PhaseKind]) -> f64 {
+pub(super) fn largest_contact_force_in(motion: &Trajectory, kinds: &[PhaseKind]) -> f64 {
     let arcs = motion.observed_arcs();
     let arcs = arcs.filter(|(arc, _)| kinds.contains(&arc.kind));
     let peaks = arcs.map(|(arc, elapsed)| peak_contact_force(&motion.scene, (&arc, elapsed)));
@@ -43,8 +43,8 @@ pub(super) fn largest_force(motion: &Trajectory, kinds: &[PhaseKind]) -> f64 {
 }
 
 /// Largest contact force in N of a motion while a stop that gives way is touched.
-pub(super) fn peak_soft_force(motion: &Trajectory) -> f64 {
-    largest_force(motion, STOP_PHASES)
+pub(super) fn peak_compliant_stop_force(motion: &Trajectory) -> f64 {
+    largest_contact_force_in(motion, STOP_PHASES)
 }
 
 /// Largest contact force in N of a motion while a stop is touched: that of a blow at a rigid one has no bound.
@@ -52,7 +52,7 @@ pub(crate) fn peak_stop_force(motion: &Trajectory) -> f64 {
     let mut crossings = motion.crossings();
     match crossings.any(|it| matches!(it.kind, CrossingKind::Rebound { .. })) {
         true => f64::INFINITY,
-        false => peak_soft_force(motion),
+        false => peak_compliant_stop_force(motion),
     }
 }
 

@@ -8,7 +8,8 @@ use crate::orbit::Orbit;
 pub use forces_and_energies::peak_contact_force;
 pub(crate) use forces_and_energies::peak_stop_force;
 use forces_and_energies::{
-    STRIP_PHASES, largest_force, peak_drive_power, peak_soft_force, supplied_and_lost_energy,
+    STRIP_PHASES, largest_contact_force_in, peak_compliant_stop_force, peak_drive_power,
+    supplied_and_lost_energy,
 };
 use softstop::{CrossingKind, MotionError, PhaseKind, Stop};
 
@@ -104,8 +105,8 @@ impl CycleMetrics {
             .wall()
             .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
         let lowest = motion.min_position();
-        let force = |kinds: &[PhaseKind]| largest_force(&motion, kinds);
-        let (stop_force, strip_force) = (peak_soft_force(&motion), force(STRIP_PHASES));
+        let force = |kinds: &[PhaseKind]| largest_contact_force_in(&motion, kinds);
+        let (stop_force, strip_force) = (peak_compliant_stop_force(&motion), force(STRIP_PHASES));
         let blows = motion.crossings();
         let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
         let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after).abs());

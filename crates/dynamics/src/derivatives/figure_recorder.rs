@@ -20,7 +20,7 @@ pub(super) struct RecordedFigures {
 
 /// An observer that records impacts, extremes of position and peak force of a motion with their derivatives.
 pub(super) struct FigureRecorder<'a> {
-    pub influence: ParameterSensitivity<'a>,
+    pub sensitivity: ParameterSensitivity<'a>,
     pub watched: RecordedFigures,
     phases: &'a Phases,
     by: &'a [PhaseDerivatives],
@@ -35,7 +35,7 @@ impl<'a> FigureRecorder<'a> {
     /// A recorder of the motions through some phases, by parameters with these derivatives of the phases.
     pub fn new(phases: &'a Phases, by: &'a [PhaseDerivatives], clock: Clock) -> Self {
         Self {
-            influence: ParameterSensitivity::new(phases, by),
+            sensitivity: ParameterSensitivity::new(phases, by),
             watched: RecordedFigures::default(),
             phases,
             by,
@@ -46,7 +46,12 @@ impl<'a> FigureRecorder<'a> {
     }
 
     /// A figure with its derivatives, and how the drive's frequency changes it where the drive angle is held.
-    fn figure_row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> DifferentiatedFigure {
+    fn differentiated_figure(
+        &self,
+        value: f64,
+        mut by: Vec<f64>,
+        with_time: f64,
+    ) -> DifferentiatedFigure {
         for (part, by) in by.iter_mut().skip(2).zip(self.by) {
             *part += by.frequency * with_time;
         }
@@ -91,7 +96,7 @@ impl<'a> FigureRecorder<'a> {
         if known.is_some_and(|known| known.value >= value) {
             return;
         }
-        let (stiffness, damping) = contact_slopes(self.phases, phase, x, v);
+        let (stiffness, damping) = contact_force_slopes(self.phases, phase, x, v);
         let missing = || vec![Vector3::repeat(f64::NAN); 2 + self.by.len()];
         let columns = columns(self).unwrap_or_else(missing);
         let parts = columns.iter().enumerate().map(|(index, column)| {
@@ -112,12 +117,12 @@ impl<'a> FigureRecorder<'a> {
 
     /// The columns of the sensitivity matrix at present, if they are known.
     fn sensitivity_columns(&self) -> Option<Vec<Vector3<f64>>> {
-        self.influence.columns().map(<[_]>::to_vec)
+        self.sensitivity.columns().map(<[_]>::to_vec)
     }
 }
 
 /// d(contact force)/d(position) in N/m and d(contact force)/d(velocity) in N s/m.
-pub(super) fn contact_slopes(phases: &Phases, phase: &Phase, x: f64, v: f64) -> (f64, f64) {
+pub(super) fn contact_force_slopes(phases: &Phases, phase: &Phase, x: f64, v: f64) -> (f64, f64) {
     let (stiffness, damping) = phase.slopes(x, v);
     let free = &phases[PhaseId::FREE].law;
     (stiffness - free.stiffness, damping - free.damping)
@@ -127,7 +132,7 @@ impl Observer for FigureRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let along = (arc.course, arc.phase);
         let within = |recorder: &Self, elapsed: f64| {
-            Some(recorder.influence.columns_along(along, elapsed)?.0)
+            Some(recorder.sensitivity.columns_along(along, elapsed)?.0)
         };
         let back = arc.course.departure.velocity > 0.0;
         for turn in turning_points(arc.course, elapsed, back) {
@@ -144,11 +149,11 @@ impl Observer for FigureRecorder<'_> {
                 let state = [from.position, from.velocity, *a];
                 self.record_force(phase.id, state, Self::sensitivity_columns, Some(delays));
             }
-            for (time, state) in force_peaks(self.phases, phase, arc, elapsed) {
+            for (time, state) in contact_force_peaks(self.phases, phase, arc, elapsed) {
                 self.record_force(phase.id, state, |recorder| within(recorder, time), None);
             }
         }
-        self.influence.arc(arc, elapsed);
+        self.sensitivity.arc(arc, elapsed);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
@@ -157,7 +162,7 @@ impl Observer for FigureRecorder<'_> {
             crossing.velocity,
             crossing.acceleration_before,
         );
-        let delays = self.influence.crossing_delays(crossing);
+        let delays = self.sensitivity.crossing_delays(crossing);
         let columns = self.sensitivity_columns();
         let each = |part: &dyn Fn(&Vector3<f64>, f64) -> f64| match &columns {
             Some(columns) => columns
@@ -169,10 +174,10 @@ impl Observer for FigureRecorder<'_> {
         };
         if crossing.kind.is_impact() {
             let time = self.clock.time(crossing.instant);
-            let times = self.figure_row(time, delays.clone(), -time);
+            let times = self.differentiated_figure(time, delays.clone(), -time);
             let side = 1f64.copysign(v);
             let change = |column: &Vector3<f64>, delay| side * (column.y + a * delay);
-            let velocities = self.figure_row(v.abs(), each(&change), v.abs());
+            let velocities = self.differentiated_figure(v.abs(), each(&change), v.abs());
             self.watched.impacts.push([times, velocities]);
         }
         let turns = match crossing.kind {
@@ -188,7 +193,7 @@ impl Observer for FigureRecorder<'_> {
             let known = columns.clone();
             self.record_force(phase, [x, v, a], |_| known, Some(&delays));
         }
-        self.influence.crossing(crossing);
+        self.sensitivity.crossing(crossing);
         self.edge = Some((delays, crossing.acceleration_after));
     }
 }
@@ -197,7 +202,7 @@ impl Observer for FigureRecorder<'_> {
 const PEAK_PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
 
 /// The peaks of the contact force on an arc: times in s since its start, with position, velocity and acceleration.
-pub(super) fn force_peaks<'a>(
+pub(super) fn contact_force_peaks<'a>(
     phases: &'a Phases,
     phase: &'a Phase,
     arc: &'a Arc<'_>,

@@ -16,19 +16,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod border;
+mod border_normal;
 mod figure_recorder;
-mod stability;
-mod variation;
+mod motion_variation;
+mod stability_derivatives;
 
-pub use border::{Border, BorderKind};
+pub use border_normal::{Border, BorderKind};
 pub use figure_recorder::{DifferentiatedFigure, DifferentiatedImpact};
-pub use stability::{StabilityDerivatives, differentiate_stability};
+pub use stability_derivatives::{StabilityDerivatives, differentiate_stability};
 
 use softstop::Parameter;
 
 use crate::orbit::{Orbit, OrbitError};
-use variation::Variation;
+use motion_variation::MotionVariation;
 
 /// The figures of a periodic motion with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,8 +61,9 @@ pub fn differentiate_orbit(
     orbit: &Orbit,
     parameters: &[Parameter],
 ) -> Result<OrbitDerivatives, OrbitError> {
-    let variation = Variation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
-    let starts = variation.start_rates()?;
+    let variation =
+        MotionVariation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let starts = variation.state_rates()?;
     let figure = |found: &DifferentiatedFigure| DifferentiatedFigure {
         value: found.value,
         by: variation.total_rates(found, &starts),

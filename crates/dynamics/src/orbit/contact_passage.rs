@@ -73,7 +73,7 @@ impl ContactFace {
     }
 
     /// The free motion from the face, at an instant with a velocity in m/s, as if there were no stop.
-    fn free_course(&self, at: Instant, velocity: f64) -> ArcSolution {
+    fn free_motion_from_face(&self, at: Instant, velocity: f64) -> ArcSolution {
         let free = &self.phases[PhaseId::FREE];
         let departure = Departure {
             position: self.surface_position(),
@@ -125,7 +125,7 @@ impl ContactFace {
         };
         (velocity > 0.0).then_some(())?;
         if velocity_after < 0.0 {
-            let course = self.free_course(at, velocity_after);
+            let course = self.free_motion_from_face(at, velocity_after);
             return Some(passage(Some(PhaseId::FREE), T::default(), at, course));
         }
         let mut motion = self.release(at, velocity_after).ok()?;

@@ -4,15 +4,19 @@
 //! zeros are none any more, all others stay. The step of Newton's method for M F is that for F times
 //! 1 / (1 - grad(ln M) . step) (Farrell, Birkisson and Funke 2015, SIAM J. Sci. Comput. 37, A2026).
 
+use super::TimedImpact;
+
 /// Width w of deflation: a share of the drive period in time, and of the velocity in velocity.
 pub(super) const DEFLATION_WIDTH: f64 = 0.05;
 
-/// An impact: its time in s and its before-impact velocity in m/s.
-type Impact = (f64, f64);
-
 /// The factor by which deflation multiplies a Newton step from an impact, away from the known ones.
-pub(super) fn deflation_factor(at: Impact, step: Impact, known: &[Impact], period: f64) -> f64 {
-    let slope = |&(time, velocity): &Impact| {
+pub(super) fn deflation_factor(
+    at: TimedImpact,
+    step: TimedImpact,
+    known: &[TimedImpact],
+    period: f64,
+) -> f64 {
+    let slope = |&(time, velocity): &TimedImpact| {
         let turns = (at.0 - time) / period;
         let apart = [turns - turns.round(), (at.1 - velocity) / velocity];
         let moved = [step.0 / period, step.1 / velocity];

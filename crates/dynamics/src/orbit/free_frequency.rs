@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 use super::multi_segment_shooting::MultiSegmentShooting;
-use super::{Orbit, OrbitError};
+use super::{Orbit, OrbitError, TimedImpact};
 use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::{CheckedScene, SceneError};
 
@@ -17,15 +17,15 @@ const MAX_STEP: [f64; 3] = [0.1, 0.3, 0.02];
 /// Where they settle, in a fold as well, the system is regular. None beyond a share of the scene's frequency.
 pub(super) fn find_beside_frequency(
     scene: &CheckedScene,
-    (time, velocity): (f64, f64),
+    (time, velocity): TimedImpact,
     share: f64,
 ) -> Option<Orbit> {
     let beside = FreeFrequency(scene);
     let mut at = Vector3::new(time / scene.clock().period(), velocity.ln(), 0.0);
     let mut here = beside.shooting_at(at)?;
-    let mut residual = impact_residual(&here, at)?;
+    let mut residual = return_residual(&here, at)?;
     for _ in 0..MAX_STEPS {
-        let jacobian = beside.impact_jacobian(&here, at)?;
+        let jacobian = beside.residual_jacobian(&here, at)?;
         let square = jacobian * jacobian.transpose();
         let step = -(jacobian.transpose() * square.lu().solve(&residual)?);
         let excess = step
@@ -37,7 +37,7 @@ pub(super) fn find_beside_frequency(
             return None;
         }
         here = beside.shooting_at(next)?;
-        let left = impact_residual(&here, next)?;
+        let left = return_residual(&here, next)?;
         let settles = left.norm() >= 0.1 * residual.norm() && residual.norm() < DIFFERENCE_WIDTH;
         (at, residual) = (next, left);
         if settles {
@@ -63,7 +63,7 @@ impl FreeFrequency<'_> {
     }
 
     /// The derivatives of the impact's residual by the unknowns, by central differences; `here`: the shooting at these.
-    fn impact_jacobian(
+    fn residual_jacobian(
         &self,
         here: &MultiSegmentShooting,
         at: Vector3<f64>,
@@ -72,8 +72,8 @@ impl FreeFrequency<'_> {
         for (index, column) in columns.iter_mut().enumerate() {
             let shift = Vector3::ith(index, DIFFERENCE_WIDTH);
             let residual = |at: Vector3<f64>| match index {
-                2 => impact_residual(&self.shooting_at(at)?, at),
-                _ => impact_residual(here, at),
+                2 => return_residual(&self.shooting_at(at)?, at),
+                _ => return_residual(here, at),
             };
             *column = (residual(at + shift)? - residual(at - shift)?) / (2.0 * DIFFERENCE_WIDTH);
         }
@@ -93,7 +93,7 @@ impl FreeFrequency<'_> {
 }
 
 /// What the next impact is off by for these unknowns, by the shooting at their frequency: position and velocity, scaled.
-fn impact_residual(shooting: &MultiSegmentShooting, at: Vector3<f64>) -> Option<Vector2<f64>> {
+fn return_residual(shooting: &MultiSegmentShooting, at: Vector3<f64>) -> Option<Vector2<f64>> {
     let gap = shooting.return_gap(at.x * shooting.span(), at.y.exp());
     gap.map(Vector2::from)
 }

@@ -3,10 +3,10 @@
 use std::cell::Cell;
 
 use super::impact_lattice::{
-    LATTICE_SPEED_RATIO, LATTICE_TIMES, SingleImpactSearch, guess_from_lattice, impact_distance,
-    lattice_speeds, time_distance,
+    LATTICE_SPEED_RATIO, LATTICE_TIMES, guess_impacts_from_lattice, lattice_speeds,
 };
-use super::{Orbit, OrbitError};
+use super::single_impact_search::{SingleImpactSearch, impact_distance, time_distance};
+use super::{Orbit, OrbitError, TimedImpact};
 use crate::monitor::Monitor;
 use crate::tolerance::NEAR;
 use softstop::CheckedScene;
@@ -19,7 +19,7 @@ const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 /// ones down, and Newton's method is followed no farther than some cells.
 ///
 /// # Errors
-/// As [`single_impact_orbits`](super::impact_lattice::single_impact_orbits).
+/// As [`single_impact_orbits`](super::single_impact_search::single_impact_orbits).
 pub(crate) fn harder_single_impact_orbit(
     scene: &CheckedScene,
     least: f64,
@@ -30,7 +30,8 @@ pub(crate) fn harder_single_impact_orbit(
     };
     let mut speeds = lattice_speeds(scene);
     speeds.retain(|speed| LATTICE_SPEED_RATIO * speed > least);
-    let mut guesses = guess_from_lattice(&singles.shooting, (singles.period, &speeds), monitor)?;
+    let mut guesses =
+        guess_impacts_from_lattice(&singles.shooting, (singles.period, &speeds), monitor)?;
     guesses.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut hardest: Option<Orbit> = None;
     for guess in guesses {
@@ -40,7 +41,7 @@ pub(crate) fn harder_single_impact_orbit(
         if LATTICE_SPEED_RATIO.sqrt() * guess.1 < known {
             break;
         }
-        singles.search_near(guess, monitor)?;
+        singles.search_while_near(guess, monitor)?;
         let stable = singles.found.iter().filter(|orbit| orbit.is_stable());
         hardest = stable.max_by(|a, b| a.compare_velocity(b)).cloned();
     }
@@ -49,15 +50,19 @@ pub(crate) fn harder_single_impact_orbit(
 
 impl SingleImpactSearch {
     /// Searches an orbit by Newton's method as long as it stays near a guess, and another one beside what it finds.
-    fn search_near(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
+    fn search_while_near(
+        &mut self,
+        guess: TimedImpact,
+        monitor: Monitor<'_>,
+    ) -> Result<(), OrbitError> {
         OrbitError::ask_monitor(monitor)?;
         let (period, impacts) = (self.period, self.found_impacts());
-        let is_near = |at: (f64, f64)| {
+        let is_near = |at: TimedImpact| {
             impacts
                 .iter()
                 .any(|it| impact_distance(*it, at, period) < NEAR)
         };
-        let leaves = |at: (f64, f64)| {
+        let leaves = |at: TimedImpact| {
             let ratio = (at.1 / guess.1).max(guess.1 / at.1);
             ratio > NEWTON_REACH.1 || time_distance(at.0, guess.0, period) > NEWTON_REACH.0
         };
@@ -74,10 +79,10 @@ impl SingleImpactSearch {
         let is_new = match settled {
             Err(_) => return Ok(()),
             Ok(None) => !has_left.get(),
-            Ok(Some(orbit)) => self.keep_new(orbit),
+            Ok(Some(orbit)) => self.keep_if_new(orbit),
         };
         if is_new && let Ok(orbit) = self.shooting.solve(begin, &self.found_impacts()) {
-            self.keep_new(orbit);
+            self.keep_if_new(orbit);
         }
         Ok(())
     }
@@ -87,7 +92,7 @@ impl SingleImpactSearch {
 mod tests {
     use super::{Orbit, harder_single_impact_orbit};
     use crate::monitor::unmonitored;
-    use crate::orbit::impact_lattice::single_impact_orbits;
+    use crate::orbit::single_impact_search::single_impact_orbits;
     use softstop::{Machine, Parameter};
 
     #[test]

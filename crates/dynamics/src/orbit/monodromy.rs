@@ -5,7 +5,6 @@ use std::ops::Deref;
 use nalgebra::{Complex, Matrix2};
 use serde::{Deserialize, Serialize};
 
-use super::quadratic_roots;
 use crate::tolerance::TEST_ROUNDING;
 use softstop::Tangent;
 
@@ -26,18 +25,22 @@ impl Monodromy {
         determinant: 0.0,
     };
 
-    /// The monodromy matrix as the product of factors, the first one first, each with its determinant beside it.
-    pub(crate) fn from_factors(factors: &[(Matrix2<f64>, f64)]) -> Self {
-        let matrices = factors.iter().map(|factor| factor.0);
+    /// A monodromy matrix, or a factor of one over a part of the motion, with its determinant, which a caller may know without
+    /// cancellation.
+    pub(crate) fn with_determinant(matrix: Matrix2<f64>, determinant: f64) -> Self {
         Self {
-            matrix: matrices.fold(Matrix2::identity(), |product, factor| factor * product),
-            determinant: factors.iter().map(|factor| factor.1).product(),
+            matrix,
+            determinant,
         }
     }
 
-    /// The monodromy matrix of a motion gone around twice.
-    pub(crate) fn squared(&self) -> Self {
-        Self::from_factors(&[(self.matrix, self.determinant); 2])
+    /// The monodromy matrix of a motion as the product of those of its parts, in order of time.
+    pub(crate) fn product(parts: &[Self]) -> Self {
+        let product = |product, part: &Self| part.matrix * product;
+        Self {
+            matrix: parts.iter().fold(Matrix2::identity(), product),
+            determinant: parts.iter().map(|part| part.determinant).product(),
+        }
     }
 
     /// Determinant of the monodromy matrix, as a product over arcs and resets: free of cancellation at weak impacts.
@@ -95,6 +98,31 @@ impl From<&Tangent> for Monodromy {
             determinant: tangent.determinant,
         }
     }
+}
+
+/// Eigenvalues of a 2x2 matrix, the one of larger modulus first.
+pub fn multipliers(matrix: &Matrix2<f64>) -> [Complex<f64>; 2] {
+    quadratic_roots(matrix.trace(), matrix.determinant())
+}
+
+/// The roots of mu^2 - trace mu + determinant, the one of larger modulus first.
+fn quadratic_roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
+    let half = 0.5 * trace;
+    let discriminant = half * half - determinant;
+    if discriminant < 0.0 {
+        let imaginary = (-discriminant).sqrt();
+        return [
+            Complex::new(half, imaginary),
+            Complex::new(half, -imaginary),
+        ];
+    }
+    let large = half + discriminant.sqrt().copysign(half);
+    let small = if large == 0.0 {
+        0.0
+    } else {
+        determinant / large
+    };
+    [Complex::new(large, 0.0), Complex::new(small, 0.0)]
 }
 
 /// A matrix as its columns.

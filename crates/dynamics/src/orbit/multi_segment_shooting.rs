@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::contact_passage::{ContactFace, ContactPassage};
 use super::deflation::deflation_factor;
-use super::{Orbit, OrbitError};
+use super::{Orbit, OrbitError, TimedImpact};
 use crate::linear::solve_linear;
 use crate::tolerance::ROUNDING_SHARE;
 use softstop::internals::Scales;
@@ -28,10 +28,10 @@ const MAX_IDLE_STEPS: usize = 16;
 const MAX_HALVINGS: u32 = 8;
 
 /// Share of the drive period by which a Newton step may move an impact, and of its velocity that it must leave.
-const STEP_SHARE: f64 = 0.1;
+const MAX_STEP_SHARE: f64 = 0.1;
 
 /// Unknowns of the shooting: times in s from drive period 0 on and before-impact velocities in m/s, by turns.
-pub(super) type Unknowns = DVector<f64>;
+pub(super) type ImpactUnknowns = DVector<f64>;
 
 /// Shooting from impact to impact for a periodic orbit of a scene over a number of drive periods.
 pub(super) struct MultiSegmentShooting {
@@ -49,13 +49,13 @@ pub(super) struct ShootingEvaluation {
 }
 
 /// A guess of the shooting's unknowns, evaluated.
-pub(super) type Guess = (Unknowns, ShootingEvaluation);
+pub(super) type EvaluatedGuess = (ImpactUnknowns, ShootingEvaluation);
 
 /// Why the shooting settled on no orbit, with its nearest miss: the first impact, time in s and velocity in m/s, where the
 /// residual was least.
 pub(super) struct ShootingFailure {
     error: OrbitError,
-    pub impact: (f64, f64),
+    pub impact: TimedImpact,
     pub residual: f64,
 }
 
@@ -95,15 +95,19 @@ impl MultiSegmentShooting {
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
-    pub(super) fn solve(&self, guess: Guess, deflated: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
+    pub(super) fn solve(
+        &self,
+        guess: EvaluatedGuess,
+        deflated: &[TimedImpact],
+    ) -> Result<Orbit, OrbitError> {
         let found = self.solve_unless_known(guess, |_| false, deflated)?;
         found.ok_or(OrbitError::LOST)
     }
 
     /// The shooting's unknowns for guessed impacts, evaluated; none where there is no such motion.
-    pub(super) fn evaluate_guess(&self, guess: &[(f64, f64)]) -> Option<Guess> {
+    pub(super) fn evaluate_guess(&self, guess: &[TimedImpact]) -> Option<EvaluatedGuess> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
-        let at = Unknowns::from_iterator(2 * guess.len(), flat);
+        let at = ImpactUnknowns::from_iterator(2 * guess.len(), flat);
         let evaluation = self.evaluate_segments(&at)?;
         Some((at, evaluation))
     }
@@ -112,9 +116,9 @@ impl MultiSegmentShooting {
     /// soon as a whole step leads to impacts that are known.
     pub(super) fn solve_unless_known(
         &self,
-        (mut at, mut evaluation): Guess,
+        (mut at, mut evaluation): EvaluatedGuess,
         known: impl Fn(&[f64]) -> bool,
-        deflated: &[(f64, f64)],
+        deflated: &[TimedImpact],
     ) -> Result<Option<Orbit>, ShootingFailure> {
         let (mut least, mut idle) = (f64::INFINITY, 0);
         let mut nearest = ShootingFailure::from(OrbitError::LOST);
@@ -142,14 +146,14 @@ impl MultiSegmentShooting {
             let whole = share == 1.0;
             let shrinks = tried.residual.norm() < evaluation.residual.norm();
             if whole && !shrinks && self.is_solved(&at, &evaluation, 1.0) {
-                return Ok(Some(self.close_orbit(&at, &evaluation)?));
+                return Ok(Some(self.orbit_of_segments(&at, &evaluation)?));
             }
             (at, evaluation) = (next, tried);
             if whole && known(at.as_slice()) {
                 return Ok(None);
             }
             if self.is_solved(&at, &evaluation, ROUNDING_SHARE) {
-                return Ok(Some(self.close_orbit(&at, &evaluation)?));
+                return Ok(Some(self.orbit_of_segments(&at, &evaluation)?));
             }
         }
         nearest.error = OrbitError::Diverged {
@@ -165,18 +169,18 @@ impl MultiSegmentShooting {
         let passage: ContactPassage<()> = self.face.pass_contact(from, velocity, self.span())?;
         let to = clock.instant(time + self.span());
         let flight = clock.elapsed(passage.free_from, to);
-        let gap = |(position, arriving)| self.scaled_gap((position, arriving), velocity);
+        let gap = |(position, arriving)| self.scaled_impact_gap((position, arriving), velocity);
         (flight > 0.0).then(|| gap(passage.course.state_at(flight, clock.drive(to))).into())
     }
 
     /// What a state at the face is off by where an impact of a velocity should be: position and velocity, scaled.
-    fn scaled_gap(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
+    fn scaled_impact_gap(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
         let gap = Vector2::new(position - self.face.surface_position(), velocity - expected);
         self.scales.state(&gap)
     }
 
     /// True if the residual is no more than a share of what rounding alone may leave.
-    fn is_solved(&self, at: &Unknowns, evaluation: &ShootingEvaluation, share: f64) -> bool {
+    fn is_solved(&self, at: &ImpactUnknowns, evaluation: &ShootingEvaluation, share: f64) -> bool {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = &self.scales;
@@ -193,15 +197,15 @@ impl MultiSegmentShooting {
     /// The unknowns after as much of a Newton step as can be taken, with that share and their evaluation.
     fn take_step(
         &self,
-        at: &Unknowns,
-        step: &Unknowns,
-    ) -> Option<(f64, Unknowns, ShootingEvaluation)> {
+        at: &ImpactUnknowns,
+        step: &ImpactUnknowns,
+    ) -> Option<(f64, ImpactUnknowns, ShootingEvaluation)> {
         let mut share = 1.0f64;
         for (index, (value, change)) in at.iter().zip(step).enumerate() {
             let (most, taken) = if index % 2 == 0 {
-                (STEP_SHARE * self.face.clock.period(), change.abs())
+                (MAX_STEP_SHARE * self.face.clock.period(), change.abs())
             } else {
-                ((1.0 - STEP_SHARE) * value, -change)
+                ((1.0 - MAX_STEP_SHARE) * value, -change)
             };
             if taken > most {
                 share = share.min(most / taken);
@@ -213,14 +217,14 @@ impl MultiSegmentShooting {
                 .iter()
                 .zip(step)
                 .map(|(value, change)| value + share * change);
-            let next = Unknowns::from_iterator(at.len(), moved);
+            let next = ImpactUnknowns::from_iterator(at.len(), moved);
             let evaluation = self.evaluate_segments(&next)?;
             Some((share, next, evaluation))
         })
     }
 
     /// Evaluates all segments from impact to impact, with residual and Jacobian; none where there is no such motion.
-    fn evaluate_segments(&self, at: &Unknowns) -> Option<ShootingEvaluation> {
+    fn evaluate_segments(&self, at: &ImpactUnknowns) -> Option<ShootingEvaluation> {
         let count = at.len() / 2;
         let mut evaluation = ShootingEvaluation {
             passages: Vec::with_capacity(count),
@@ -248,7 +252,7 @@ impl MultiSegmentShooting {
             let through = course.flow.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * segment, 2 * segment, 2 * next);
             let mut fit = evaluation.residual.fixed_rows_mut::<2>(rows);
-            fit.copy_from(&self.scaled_gap((position, velocity), at[ahead + 1]));
+            fit.copy_from(&self.scaled_impact_gap((position, velocity), at[ahead + 1]));
             let mut add = |column: usize, by: Vector2<f64>| {
                 let by = self.scales.state(&by);
                 evaluation.jacobian[(rows, column)] += by.x;

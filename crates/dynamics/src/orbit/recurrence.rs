@@ -21,7 +21,7 @@ pub(crate) fn state_distance(frequency: f64, a: &Start, b: &Start) -> f64 {
 }
 
 /// Squared distance of two states in m^2/s^2, as in [`state_distance`].
-fn squared_gap(frequency: f64, a: &Start, b: &Start) -> f64 {
+fn squared_distance(frequency: f64, a: &Start, b: &Start) -> f64 {
     let (x, v) = (
         frequency * (a.position - b.position),
         a.velocity - b.velocity,
@@ -32,7 +32,7 @@ fn squared_gap(frequency: f64, a: &Start, b: &Start) -> f64 {
 /// The size of a motion in m/s: the distance of its farthest state from rest at the origin.
 pub(crate) fn motion_size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
     let states = states.into_iter();
-    let squares = states.map(|state| squared_gap(frequency, state, &Start::REST));
+    let squares = states.map(|state| squared_distance(frequency, state, &Start::REST));
     squares.fold(0.0, f64::max).sqrt()
 }
 
@@ -53,7 +53,11 @@ pub(crate) fn find_recurrence_within(
     (1..=longest).find_map(|periods| {
         let mut largest = 0.0f64;
         for j in 0..=longest {
-            largest = largest.max(squared_gap(frequency, &states[j], &states[j + periods]));
+            largest = largest.max(squared_distance(
+                frequency,
+                &states[j],
+                &states[j + periods],
+            ));
             if largest > most {
                 return None;
             }
@@ -81,7 +85,7 @@ const MAX_LATE_GAP: f64 = 10.0;
 pub(crate) fn find_settled_period(frequency: f64, states: &[Start], share: f64) -> Option<usize> {
     let most = MAX_LATE_GAP * share * motion_size(frequency, states);
     let dies = |apart: usize, ratio: f64| {
-        let [first, second] = squared_gaps_by_half(frequency, states, apart);
+        let [first, second] = largest_squared_distances_by_half(frequency, states, apart);
         second < (most * most).min(ratio * ratio * first)
     };
     match find_recurrence_within(frequency, states, share) {
@@ -97,16 +101,16 @@ pub(crate) fn find_settled_period(frequency: f64, states: &[Start], share: f64) 
 /// True if a row of states returns after so many drive periods in its second half, to rounding.
 pub(crate) fn returns_to_rounding(frequency: f64, states: &[Start], periods: usize) -> bool {
     let least = ROUNDING * motion_size(frequency, states);
-    squared_gaps_by_half(frequency, states, periods)[1] <= least * least
+    largest_squared_distances_by_half(frequency, states, periods)[1] <= least * least
 }
 
 /// Largest squared distances of states so many periods apart, in each half of a row.
-fn squared_gaps_by_half(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
+fn largest_squared_distances_by_half(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
     let (ahead, behind) = (&states[apart..], &states[..states.len() - apart]);
     let half = ahead.len() / 2;
     [0..half, half..ahead.len()].map(|half| {
         let pairs = ahead[half.clone()].iter().zip(&behind[half]);
-        let squares = pairs.map(|(a, b)| squared_gap(frequency, a, b));
+        let squares = pairs.map(|(a, b)| squared_distance(frequency, a, b));
         squares.fold(0.0, f64::max)
     })
 }

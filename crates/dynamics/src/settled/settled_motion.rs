@@ -159,16 +159,16 @@ impl SettledMotion {
             return Ok(None);
         };
         let scene = map.scene();
-        let passage = || map.apply(self.from.into());
+        let application = || map.apply(self.from.into());
         let frequency = scene.excitation.frequency;
         let is_slow = || self.from.velocity.abs() <= SAME * motion_size(frequency, [&self.from]);
-        if regime.impacts == 0 && is_slow() && passage()?.is_at_rest(&self.from, frequency) {
+        if regime.impacts == 0 && is_slow() && application()?.is_at_rest(&self.from, frequency) {
             return Ok(Some(MotionKind::Rest));
         }
         // Nothing chatters where nothing rebounds from a face.
         let (lowest, highest) = scene.reach();
         let rests = match lowest.is_finite() || highest.is_finite() {
-            true => passage()?.rests,
+            true => application()?.rests,
             false => Vec::new(),
         };
         let order = ImpactPattern::new(&self.instants, &rests, self.length, scene.period());

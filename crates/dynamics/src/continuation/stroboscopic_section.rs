@@ -7,23 +7,53 @@
 
 use nalgebra::DVector;
 
-use super::arclength::{Node, correct, curve_tangent};
-use super::follow::{Continuation, SectionChange, same_orientation};
-use super::period_map::{PeriodMap, before_wall, state_after};
-use super::point::BranchPoint;
+use super::equations::CurveNode;
+use super::newton_corrector::{correct, curve_tangent};
+use super::period_map::{PeriodMap, clamp_to_walls, state_after_periods};
+use super::step_acceptance::same_orientation;
+use super::{BranchPoint, Continuation};
+use crate::orbit::OrbitError;
 use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::{MotionError, Trajectory};
 
+/// A branch seen at another section: a node of it, and the direction in which it goes on.
+pub(super) struct SectionChange<'a> {
+    pub continuation: Continuation<'a>,
+    pub node: CurveNode<PeriodMap>,
+    pub along: DVector<f64>,
+}
+
 impl<'a> Continuation<'a> {
+    /// Follows a branch from section to section, as far as `follow` says at each how it goes on.
+    pub(super) fn follow_sections(
+        &self,
+        begin: (CurveNode<PeriodMap>, &DVector<f64>),
+        mut follow: impl FnMut(
+            &Self,
+            (CurveNode<PeriodMap>, &DVector<f64>),
+        ) -> Result<Option<SectionChange<'a>>, OrbitError>,
+    ) -> Result<(), OrbitError> {
+        let mut next = follow(self, begin)?;
+        while let Some(SectionChange {
+            continuation,
+            node,
+            along,
+        }) = next
+        {
+            next = follow(&continuation, (node, &along))?;
+        }
+        Ok(())
+    }
+
     /// Turns the section of a branch to where no crossing stands in the way; none if this section is as good as any.
     pub(super) fn turn_section(
         &self,
-        node: &Node<PeriodMap>,
+        node: &CurveNode<PeriodMap>,
         direction: &DVector<f64>,
     ) -> Option<SectionChange<'a>> {
-        let continuation = self.clear_of(node)?;
+        let continuation = self.with_clear_section(node)?;
         let by = continuation.shooting.turn - self.shooting.turn;
-        let carried = |at: &DVector<f64>| self.carry_place(at, by);
+        let carried = |at: &DVector<f64>| self.carry_unknowns(at, by);
         let at = carried(&node.at).ok()?;
         let back = carried(&(&node.at - DIFFERENCE_WIDTH * direction)).ok()?;
         let along = (&at - back).normalize();
@@ -45,7 +75,7 @@ impl<'a> Continuation<'a> {
     }
 
     /// This continuation with its section in the middle of the orbit's longest flight; none if no crossing is near.
-    pub(super) fn clear_of(&self, node: &Node<PeriodMap>) -> Option<Self> {
+    pub(super) fn with_clear_section(&self, node: &CurveNode<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
         if margin > self.settings.section_margin {
             return None;
@@ -56,25 +86,29 @@ impl<'a> Continuation<'a> {
     }
 
     /// Carries a place to another section: to that some drive periods later on the same motion.
-    pub(super) fn carry_place(
+    pub(super) fn carry_unknowns(
         &self,
         at: &DVector<f64>,
         periods: f64,
     ) -> Result<DVector<f64>, MotionError> {
         let whole = self.shooting.periods as f64;
         let scene = self.shooting.scene_at(at)?;
-        let begin = before_wall(&scene, self.shooting.state_at(at));
-        let state = state_after(&scene, begin, periods.rem_euclid(whole))?;
-        Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
+        let begin = clamp_to_walls(&scene, self.shooting.state_at(at));
+        let state = state_after_periods(&scene, begin, periods.rem_euclid(whole))?;
+        Ok(self
+            .shooting
+            .scaled_unknowns(state, self.shooting.parameters(at)))
     }
 
     /// The place of a point of a branch, as it is seen at this section.
-    pub(super) fn place_of(&self, point: &BranchPoint) -> Result<DVector<f64>, MotionError> {
+    pub(super) fn unknowns_of(&self, point: &BranchPoint) -> Result<DVector<f64>, MotionError> {
         let plain = self.with_turn(0.0);
-        let at = plain.shooting.scaled(point.state(), [point.parameter]);
+        let at = plain
+            .shooting
+            .scaled_unknowns(point.state(), [point.parameter]);
         match self.shooting.turn {
             0.0 => Ok(at),
-            turn => plain.carry_place(&at, turn),
+            turn => plain.carry_unknowns(&at, turn),
         }
     }
 }

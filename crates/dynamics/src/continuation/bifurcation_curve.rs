@@ -1,15 +1,18 @@
 //! Curves of special points in two parameters, and following one from point to point.
 
+use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::arclength::{Ends, Node, correct, curve_tangent};
-use super::codimension_two::{Codimension, CodimensionTwo, CurvePoint, along_parameters};
-use super::locate::{locate_zero, passes_place};
-use super::point::SpecialKind;
-use super::settings::ContinuationSettings;
+use super::chord_and_cubic::passes_place;
+use super::codimension_two::{SpecialPointEquations, along_parameters};
+use super::continuation_settings::ContinuationSettings;
+use super::equations::{CurveNode, StepEnds};
+use super::locate_zero::locate_zero;
+use super::newton_corrector::{correct, curve_tangent};
 use super::stepper::Stepper;
+use super::{CodimensionTwo, CurvePoint, SpecialKind};
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
 
@@ -60,7 +63,7 @@ pub struct Curve {
 }
 
 /// Follows the curve through the solution near a guess, in both directions.
-pub(super) fn follow_curve<E: Codimension>(
+pub(super) fn follow_curve<E: SpecialPointEquations>(
     equations: &E,
     kind: SpecialKind,
     guess: &DVector<f64>,
@@ -102,16 +105,16 @@ pub(super) const MIN_LOOP_POINTS: usize = 8;
 type HalfCurve = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>);
 
 /// Follows a curve in one direction from a node: why it ends.
-fn follow_half_curve<E: Codimension>(
+fn follow_half_curve<E: SpecialPointEquations>(
     equations: &E,
-    start: Node<E::Point>,
+    start: CurveNode<E::Point>,
     along: &DVector<f64>,
     region: &CurveLimits,
     (points, specials): &mut HalfCurve,
     watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<CurveEnd, OrbitError> {
     let origin = start.at.clone();
-    let sequence = E::orbit_of(&start.here.point).2;
+    let counts = E::orbit_of(&start.here.point).2;
     let mut stepper = Stepper::new(equations, start, along, &region.settings)?;
     while points.len() < region.points {
         let last = stepper.node.clone();
@@ -124,7 +127,7 @@ fn follow_half_curve<E: Codimension>(
         }
         let next = stepper.attempt_step().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
-            if E::orbit_of(&step.node.here.point).2 != sequence {
+            if E::orbit_of(&step.node.here.point).2 != counts {
                 return Err(CurveEnd::Grazing);
             }
             let end = clip_to_region(equations, (&last, &step.node), region);
@@ -135,11 +138,11 @@ fn follow_half_curve<E: Codimension>(
             Err(_) if stepper.shorten_step() => continue,
             Err(cause) => return Ok(cause),
         };
-        if is_merging(equations, (&last, &node)) {
+        if reaches_flip(equations, (&last, &node)) {
             return Ok(CurveEnd::Lost(OrbitError::LOST));
         }
         let directions = [&stepper.direction, &step.direction];
-        let special = special_between(equations, (&last, &node), directions);
+        let special = codimension_two_between(equations, (&last, &node), directions);
         specials.extend(special.ok().flatten());
         stepper.step_to(step);
         let closed =
@@ -164,9 +167,9 @@ fn follow_half_curve<E: Codimension>(
 }
 
 /// The point of codimension two between two nodes, if there is one; with the directions of the curve there.
-fn special_between<E: Codimension>(
+fn codimension_two_between<E: SpecialPointEquations>(
     equations: &E,
-    (from, to): Ends<'_, E::Point>,
+    (from, to): StepEnds<'_, E::Point>,
     [begins, ends]: [&DVector<f64>; 2],
 ) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
     let (_, before) = equations.degeneracy_test(from, [begins, begins]);
@@ -175,8 +178,8 @@ fn special_between<E: Codimension>(
     if !changes {
         return Ok(None);
     }
-    let direction = |node: &Node<E::Point>| curve_tangent(equations, node, begins);
-    let value = |node: &Node<E::Point>| {
+    let direction = |node: &CurveNode<E::Point>| curve_tangent(equations, node, begins);
+    let value = |node: &CurveNode<E::Point>| {
         let value =
             direction(node).map(|(here, _)| equations.degeneracy_test(node, [begins, &here]).1);
         value.unwrap_or(f64::NAN)
@@ -195,33 +198,37 @@ fn special_between<E: Codimension>(
 }
 
 /// True if a fold between two nodes of a curve repeats after half its drive periods already: it is a flip.
-fn is_merging<E: Codimension>(equations: &E, (from, to): Ends<'_, E::Point>) -> bool {
-    let gap = |node: &Node<E::Point>| equations.half_period_gap(&equations.curve_point(node).ok()?);
+fn reaches_flip<E: SpecialPointEquations>(
+    equations: &E,
+    (from, to): StepEnds<'_, E::Point>,
+) -> bool {
+    let gap =
+        |node: &CurveNode<E::Point>| equations.half_period_gap(&equations.curve_point(node).ok()?);
     let (Some(before), Some(after)) = (gap(from), gap(to)) else {
         return false;
     };
     if before.dot(&after) >= 0.0 {
         return false;
     }
-    let value = |node: &Node<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
+    let value = |node: &CurveNode<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
     let between = locate_zero(equations, (from, to), value).ok();
     let left = between.and_then(|(node, _)| gap(&node));
     left.is_some_and(|it| it.norm() < SAME * before.norm().max(after.norm()))
 }
 
 /// The end of a step of a curve, or the point on it where a parameter leaves its range, and whether one does.
-fn clip_to_region<E: Codimension>(
+fn clip_to_region<E: SpecialPointEquations>(
     equations: &E,
-    (from, to): Ends<'_, E::Point>,
+    (from, to): StepEnds<'_, E::Point>,
     region: &CurveLimits,
-) -> Result<(Node<E::Point>, bool), OrbitError> {
+) -> Result<(CurveNode<E::Point>, bool), OrbitError> {
     let mut end = (to.clone(), false);
     for (index, (low, high)) in region.ranges.into_iter().enumerate() {
-        let value = |node: &Node<E::Point>| equations.parameters(&node.at)[index];
+        let value = |node: &CurveNode<E::Point>| equations.parameters(&node.at)[index];
         let now = value(&end.0);
         let bound = now.clamp(low, high);
         if bound != now && value(from) != bound {
-            let test = |node: &Node<E::Point>| value(node) - bound;
+            let test = |node: &CurveNode<E::Point>| value(node) - bound;
             let (node, _) = locate_zero(equations, (from, &end.0), test)?;
             end = (node, true);
         }

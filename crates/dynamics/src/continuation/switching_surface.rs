@@ -1,5 +1,7 @@
 //! Faces: the surfaces that an orbit may graze, and how near it is to touching one.
 
+use std::fmt::Debug;
+
 use crate::tolerance::ROUNDING;
 use softstop::{Parameter, Scene, Stop};
 
@@ -61,7 +63,7 @@ impl SwitchingSurface {
     }
 
     /// True if an orbit can graze the face without losing its derivative: the force does not jump there.
-    pub(crate) fn is_gentle(self, scene: &Scene) -> bool {
+    pub(crate) fn is_force_continuous(self, scene: &Scene) -> bool {
         match (self, scene.piercing) {
             (Self::Clearance, Some(strip)) => strip.thickness > 0.0,
             (Self::Clearance, None) => match &scene.stop {
@@ -76,7 +78,7 @@ impl SwitchingSurface {
             },
             (Self::Below, _) => {
                 let mirrored = scene.mirrored();
-                mirrored.is_none_or(|mirrored| Self::Clearance.is_gentle(&mirrored))
+                mirrored.is_none_or(|mirrored| Self::Clearance.is_force_continuous(&mirrored))
             }
             _ => false,
         }
@@ -84,10 +86,10 @@ impl SwitchingSurface {
 
     /// True if a weak impact at the face has a square root, and a motion may begin there: at a rigid stop, and where
     /// the force jumps against the mass or with it but for the strip's edges.
-    pub(crate) fn is_steep(self, scene: &Scene) -> bool {
+    pub(crate) fn has_square_root(self, scene: &Scene) -> bool {
         match self {
-            Self::Clearance => scene.piercing.is_none() && !self.is_gentle(scene),
-            Self::Below => !self.is_gentle(scene),
+            Self::Clearance => scene.piercing.is_none() && !self.is_force_continuous(scene),
+            Self::Below => !self.is_force_continuous(scene),
             Self::Pierced => false,
             Self::Stop => {
                 let cutting = scene.piercing.filter(|strip| strip.travel > 0.0);
@@ -111,7 +113,7 @@ impl SwitchingSurface {
 
 /// Where an orbit comes near to grazing a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct NearTouch {
+pub(crate) struct NearGrazing {
     /// Time in s.
     pub time: f64,
     /// Velocity in m/s of a crossing, or distance in m of a turning point from the face ahead.

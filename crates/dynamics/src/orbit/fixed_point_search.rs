@@ -2,9 +2,10 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::stroboscopic_map::find_new_fixed_point;
-use super::trials::{
-    Candidate, NEAR_RETURN, Trial, least_moved, scaled_distance, settled_candidates,
+use super::newton_fixed_point::find_new_fixed_point;
+use super::trial_motions::{
+    MAX_CANDIDATE_MOVE, OrbitCandidate, TrialMotion, least_moved, scaled_distance,
+    settled_candidates,
 };
 use super::{MapApplication, Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::monitor::Monitor;
@@ -13,7 +14,7 @@ use softstop::CheckedScene;
 use softstop::internals::Scales;
 
 /// The fixed points of a scene's map over one drive period that the search has met.
-pub(super) struct FixedPoints {
+pub(super) struct FixedPointSearch {
     pub map: StroboscopicMap,
     scales: Scales,
     /// All of them.
@@ -27,7 +28,7 @@ pub(super) struct FixedPoints {
 struct FixedPoint {
     state: Vector2<f64>,
     /// What leads to it from a state, times what that moves: Newton's method with the Jacobian of the fixed point.
-    lead: Option<Matrix2<f64>>,
+    newton_matrix: Option<Matrix2<f64>>,
     /// Distance within which another state stands for it.
     reach: f64,
     is_stable: bool,
@@ -39,14 +40,14 @@ impl FixedPoint {
         let is_stable = monodromy.is_stable();
         Self {
             state,
-            lead: monodromy.resolvent(),
+            newton_matrix: monodromy.resolvent(),
             reach: if is_stable { STABLE_REACH } else { NEAR },
             is_stable,
         }
     }
 }
 
-impl FixedPoints {
+impl FixedPointSearch {
     /// A search of a scene's fixed points that has met none.
     pub fn new(scene: &CheckedScene) -> Self {
         Self {
@@ -62,7 +63,7 @@ impl FixedPoints {
     /// of periods; the hardest stable z = 1 motion met so far if there is one and all is looked at.
     pub fn search_trials(
         &mut self,
-        trials: &[Trial],
+        trials: &[TrialMotion],
         after: &[u64],
         groups: usize,
         monitor: Monitor<'_>,
@@ -97,19 +98,19 @@ impl FixedPoints {
     /// Searches a fixed point by Newton's method from each candidate that no other one stands for.
     fn search_candidates(
         &mut self,
-        candidates: Vec<Candidate>,
+        candidates: Vec<OrbitCandidate>,
         monitor: Monitor<'_>,
     ) -> Result<(), OrbitError> {
         for candidate in candidates {
             OrbitError::ask_monitor(monitor)?;
-            let Candidate { moves, state, .. } = candidate;
+            let OrbitCandidate { moves, state, .. } = candidate;
             let stands = |other: &Vector2<f64>| self.scaled_gap(*other, state) < 0.5 * moves;
-            if !self.is_known(state)
+            if !self.is_near_known_point(state)
                 && !self.tried.iter().any(stands)
                 && !self
                     .all
                     .iter()
-                    .any(|fixed| self.leads_to(fixed, &candidate))
+                    .any(|fixed| self.is_on_way_to(fixed, &candidate))
             {
                 self.tried.push(state);
                 self.search_from_state(state);
@@ -124,27 +125,29 @@ impl FixedPoints {
     }
 
     /// True if a state stands for a fixed point that was met.
-    fn is_known(&self, state: Vector2<f64>) -> bool {
+    fn is_near_known_point(&self, state: Vector2<f64>) -> bool {
         let mut all = self.all.iter();
         all.any(|other| self.scaled_gap(other.state, state) < other.reach)
     }
 
     /// True if a candidate has moved as the Jacobian of a fixed point has it near that one.
-    fn leads_to(&self, to: &FixedPoint, candidate: &Candidate) -> bool {
+    fn is_on_way_to(&self, to: &FixedPoint, candidate: &OrbitCandidate) -> bool {
         let moved = candidate.state - candidate.before;
-        let off = |lead| self.scaled_gap(candidate.before + lead * moved, to.state);
-        to.lead.is_some_and(|lead| off(lead) < to.reach)
+        let off =
+            |newton_matrix| self.scaled_gap(candidate.before + newton_matrix * moved, to.state);
+        to.newton_matrix
+            .is_some_and(|newton_matrix| off(newton_matrix) < to.reach)
     }
 
     /// True if a motion that moves little settles on a stable fixed point that was met, as its Jacobian has it.
-    pub fn predicts_stable(&self, last: &Candidate) -> bool {
+    pub fn predicts_stable(&self, last: &OrbitCandidate) -> bool {
         let mut stable = self.all.iter().filter(|fixed| fixed.is_stable);
-        last.moves < NEAR_RETURN && stable.any(|fixed| self.leads_to(fixed, last))
+        last.moves < MAX_CANDIDATE_MOVE && stable.any(|fixed| self.is_on_way_to(fixed, last))
     }
 
     /// Searches a fixed point by Newton's method from a state, unless it comes near one that was met.
     fn search_from_state(&mut self, state: Vector2<f64>) {
-        let found = find_new_fixed_point(&self.map, state, |state| self.is_known(state));
+        let found = find_new_fixed_point(&self.map, state, |state| self.is_near_known_point(state));
         let scales = self.map.scene().scales();
         let steepness = |passage: &MapApplication| scales.jacobian(&passage.monodromy).norm();
         let orbit = match found {

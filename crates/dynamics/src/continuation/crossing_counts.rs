@@ -1,7 +1,9 @@
 //! The sequence of crossings of an orbit: what it crosses, and how often.
 
-use super::face::{NearTouch, SwitchingSurface};
-use super::point::BorderCollision;
+use std::fmt::Debug;
+
+use super::SwitchingSurface;
+use super::switching_surface::NearGrazing;
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
 /// Largest ratio of the speeds at which a mass comes back to a stop and at which it left it, of bounces of one row.
@@ -9,7 +11,7 @@ const MAX_BOUNCE_RATIO: f64 = 10.0;
 
 /// Counts of what an orbit crosses; they change only where it grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Sequence {
+pub(crate) struct CrossingCounts {
     /// Impacts; each row of bounces that ends in rest counts as one.
     pub impacts: usize,
     /// Crossings of surfaces, impacts on a rigid stop among them.
@@ -25,10 +27,10 @@ pub(crate) struct Sequence {
     /// How often the mass is held, by dry friction or at a face.
     pub holds: usize,
     /// Crossings of surfaces and turns at which the force does not jump: an orbit gains and loses them smoothly.
-    pub gentle: [usize; 2],
+    pub continuous: [usize; 2],
 }
 
-impl Sequence {
+impl CrossingCounts {
     /// True if two sequences differ in no crossing with a jump of the force.
     pub fn has_same_jumps(&self, other: &Self) -> bool {
         self.jump_counts() == other.jump_counts() && self.rests == other.rests
@@ -54,8 +56,8 @@ impl Sequence {
     /// Crossings of surfaces, and turns, at which the force jumps.
     fn jump_counts(&self) -> [usize; 2] {
         [
-            self.surfaces - self.gentle[0],
-            self.reversals - self.gentle[1],
+            self.surfaces - self.continuous[0],
+            self.reversals - self.continuous[1],
         ]
     }
 
@@ -98,7 +100,8 @@ impl<'a> CountedCrossings<'a> {
                 let left = MAX_BOUNCE_RATIO * crossing.velocity_after.abs();
                 row = Some((first, speed.min(left)));
             }
-            let face = is_passage(crossing).then(|| SwitchingSurface::at_position(scene, position));
+            let face =
+                passes_surface(crossing).then(|| SwitchingSurface::at_position(scene, position));
             all.push((crossing, face.flatten()));
         }
         Self { trajectory, all }
@@ -110,12 +113,12 @@ impl<'a> CountedCrossings<'a> {
     }
 
     /// The slowest crossing of a face since the mass was at rest.
-    pub fn slowest_crossing(&self) -> Option<NearTouch> {
+    pub fn slowest_crossing(&self) -> Option<NearGrazing> {
         let is_rest = |(it, _): &(&Crossing, _)| it.kind == CrossingKind::Rest;
         let rest = self.all.iter().rposition(is_rest);
         let since = self.all[rest.map_or(0, |rest| rest + 1)..].iter();
         let touches = since.filter_map(|(crossing, face)| {
-            Some(NearTouch {
+            Some(NearGrazing {
                 time: self.trajectory.clock.time(crossing.instant),
                 amount: crossing.velocity.abs(),
                 face: (*face)?,
@@ -126,53 +129,53 @@ impl<'a> CountedCrossings<'a> {
     }
 
     /// Counts the crossings of the motion: how often it crosses what.
-    pub fn count_crossings(&self, scene: &Scene) -> Sequence {
+    pub fn counts(&self, scene: &Scene) -> CrossingCounts {
         let held = self.trajectory.arcs.iter().map(|arc| arc.course.is_held());
         let before = std::iter::once(false).chain(held.clone());
-        let mut sequence = Sequence {
+        let mut counts = CrossingCounts {
             holds: held.zip(before).filter(|(is, was)| *is && !was).count(),
-            ..Sequence::default()
+            ..CrossingCounts::default()
         };
         // Where a surface without a jump of the force was passed forward last, and whether the mass has turned since.
         let mut touched = None;
         for (crossing, face) in &self.all {
-            sequence.impacts += usize::from(crossing.kind.is_impact());
+            counts.impacts += usize::from(crossing.kind.is_impact());
             match crossing.kind {
                 CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => {
-                    sequence.surfaces += 1;
+                    counts.surfaces += 1;
                     if let Some(face) = face {
-                        sequence.faces[*face as usize] += 1;
+                        counts.faces[*face as usize] += 1;
                     }
-                    let gentle = face.is_none_or(|face| face.is_gentle(scene));
-                    touched = sequence.count_passage(crossing, gentle, touched);
+                    let continuous = face.is_none_or(|face| face.is_force_continuous(scene));
+                    touched = counts.count_passage(crossing, continuous, touched);
                 }
                 CrossingKind::Reversal => {
-                    sequence.reversals += 1;
+                    counts.reversals += 1;
                     touched = touched.map(|(position, _)| (position, true));
                 }
-                CrossingKind::Rest => sequence.rests += 1,
-                CrossingKind::Switch | CrossingKind::Release => sequence.others += 1,
+                CrossingKind::Rest => counts.rests += 1,
+                CrossingKind::Switch | CrossingKind::Release => counts.others += 1,
             }
         }
-        sequence
+        counts
     }
 }
 
-impl Sequence {
+impl CrossingCounts {
     /// Counts a surface that is passed with or without a jump of the force: what is touched from there on.
     fn count_passage(
         &mut self,
         crossing: &Crossing,
-        gentle: bool,
+        continuous: bool,
         touched: Option<(f64, bool)>,
     ) -> Option<(f64, bool)> {
-        if !gentle {
+        if !continuous {
             return None;
         }
-        self.gentle[0] += 1;
+        self.continuous[0] += 1;
         // Turning back in between comes and goes with the touch.
         if touched == Some((crossing.position, true)) {
-            self.gentle[1] += 1;
+            self.continuous[1] += 1;
             return None;
         }
         let is_back = matches!(crossing.kind, CrossingKind::Surface { forward: false, .. });
@@ -181,8 +184,20 @@ impl Sequence {
     }
 }
 
+/// What changes in an orbit where its branch ends in a border collision other than a grazing: a rest, a turn under friction, or
+/// the number of surfaces that it crosses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BorderCollision {
+    /// The mass comes to rest, by dry friction or at a face, or ceases to.
+    Rest,
+    /// It turns once more, or once less, under dry friction.
+    Turn,
+    /// It crosses another number of surfaces.
+    Surface,
+}
+
 /// True if a crossing passes a surface or hits a rigid stop.
-fn is_passage(crossing: &Crossing) -> bool {
+fn passes_surface(crossing: &Crossing) -> bool {
     matches!(
         crossing.kind,
         CrossingKind::Surface { .. } | CrossingKind::Rebound { .. }

@@ -2,9 +2,9 @@
 
 use std::slice::from_ref;
 
-use super::fixed_points::FixedPoints;
-use super::impact_lattice::single_impact_orbits;
-use super::trials::Trials;
+use super::fixed_point_search::FixedPointSearch;
+use super::single_impact_search::single_impact_orbits;
+use super::trial_motions::TrialMotions;
 use super::{Orbit, OrbitError};
 use crate::monitor::{Monitor, unmonitored};
 use softstop::Scene;
@@ -39,7 +39,7 @@ pub(crate) fn find_with_known_orbits(
     known: Option<Vec<Orbit>>,
     monitor: Monitor<'_>,
 ) -> Result<Orbit, OrbitError> {
-    let settled = search_all(from_ref(scene), usize::MAX, monitor).remove(0);
+    let settled = search_hardest_of_scenes(from_ref(scene), usize::MAX, monitor).remove(0);
     let mut all = match known {
         Some(known) => known,
         None => single_impact_orbits(scene, monitor)?,
@@ -57,12 +57,12 @@ pub(crate) fn find_with_known_orbits(
 /// # Errors
 /// Each as of [`find`].
 pub(crate) fn find_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<Orbit, OrbitError>> {
-    search_all(scenes, 1, monitor)
+    search_hardest_of_scenes(scenes, 1, monitor)
 }
 
 /// Searches the hardest stable z = 1 motion of each scene among all that the first groups of states lead to, and
 /// further groups as long as there is none. Motions of all scenes go together, until they lead to a stable one.
-fn search_all(
+fn search_hardest_of_scenes(
     scenes: &[Scene],
     groups: usize,
     monitor: Monitor<'_>,
@@ -77,7 +77,7 @@ fn search_all(
         match scene.check() {
             Ok(scene) => {
                 machines.push(Machine::new(&scene));
-                searches.push((index, FixedPoints::new(&scene)));
+                searches.push((index, FixedPointSearch::new(&scene)));
             }
             Err(error) => found[index] = Err(error.into()),
         }
@@ -86,11 +86,11 @@ fn search_all(
         .iter()
         .map(|(_, fixed_points)| &**fixed_points.map.scene());
     let kept = SEARCH_STAGES.iter().flat_map(|(_, after)| *after).copied();
-    let mut trials = Trials::new(scenes, kept.collect());
+    let mut trials = TrialMotions::new(scenes, kept.collect());
     for (until, after) in SEARCH_STAGES {
         trials.follow_trials(&machines, until, monitor);
         for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {
-            let trials = trials.of_machine(machine);
+            let trials = trials.trials_of_machine(machine);
             if !trials.iter().any(|trial| trial.is_open) {
                 if let (Err(OrbitError::NotFound { .. }), Some(hardest)) =
                     (&found[*index], fixed_points.hardest_single())

@@ -1,10 +1,11 @@
 //! Points of branches, special points among them, and half a branch: how far it is followed one way, and why it ends.
 
+use std::fmt::Debug;
+
 use nalgebra::Vector2;
 
-use super::face::SwitchingSurface;
-use super::test_function::TestFunction;
-use crate::orbit::{Monodromy, OrbitError};
+use super::{SwitchingSurface, TestFunction};
+use crate::orbit::Monodromy;
 
 /// A point of a branch: the orbit at one value of the parameter.
 #[derive(Debug, Clone)]
@@ -118,83 +119,5 @@ impl SpecialPoint {
     /// True if the special point is this point of the branch.
     pub(crate) fn is_at(&self, point: &BranchPoint) -> bool {
         self.point.parameter == point.parameter && self.point.state() == point.state()
-    }
-}
-
-/// Limits of a branch: how far it is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BranchLimits {
-    /// Lowest and highest value of the parameter.
-    pub range: (f64, f64),
-    /// Points in each direction.
-    pub points: usize,
-}
-
-/// Why a branch ends.
-#[derive(Debug, Clone)]
-pub enum BranchEnd {
-    /// The parameter reaches the end of its range; the last point is there.
-    Range,
-    /// There are as many points as asked for.
-    Points,
-    /// The branch is closed: it comes back to its start.
-    Closed,
-    /// The orbit grazes the stop; the last point does.
-    Grazing,
-    /// The orbit becomes one of half as many periods, at its flip; the last point is that.
-    Merged,
-    /// The orbit becomes symmetric, at a pitchfork; the last point is that.
-    Symmetric,
-    /// The monitor asked for it.
-    Stopped,
-    /// Just beyond the last point the orbit would meet something where the force jumps.
-    Border(BorderCollision),
-    /// The orbit is so unstable that changes of 1e-6 along the parameter leave its neighbourhood.
-    Unstable,
-    /// It cannot be followed even with the smallest step.
-    Lost(OrbitError),
-}
-
-/// What changes in an orbit where its branch ends in a border collision other than a grazing: a rest, a turn under friction, or
-/// the number of surfaces that it crosses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BorderCollision {
-    /// The mass comes to rest, by dry friction or at a face, or ceases to.
-    Rest,
-    /// It turns once more, or once less, under dry friction.
-    Turn,
-    /// It crosses another number of surfaces.
-    Surface,
-}
-
-/// Half a branch: its points in one direction, without its start.
-pub(super) struct HalfBranch {
-    pub(super) points: Vec<BranchPoint>,
-    pub(super) specials: Vec<SpecialPoint>,
-    pub(super) end: BranchEnd,
-    /// Points at the last turn of the section: it is not turned twice at one place.
-    pub(super) turned_at: Option<usize>,
-}
-
-impl HalfBranch {
-    /// Ends half a branch in a grazing; false if there is none.
-    pub(super) fn end_in_grazing(&mut self, special: Option<SpecialPoint>) -> bool {
-        let Some(special) = special else {
-            return false;
-        };
-        self.points.push(special.point.clone());
-        self.specials.push(special);
-        self.end = BranchEnd::Grazing;
-        true
-    }
-
-    /// Half a branch without points, and why it ends.
-    pub(super) fn empty(end: BranchEnd) -> Self {
-        Self {
-            points: Vec::new(),
-            specials: Vec::new(),
-            end,
-            turned_at: None,
-        }
     }
 }

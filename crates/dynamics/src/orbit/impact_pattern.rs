@@ -29,7 +29,7 @@ impl ImpactPattern {
     /// The pattern of impacts, and of complete chatter that ends at `rests`, within `periods` of `period` seconds each.
     pub fn new(impacts: &[Instant], rests: &[Instant], periods: u64, period: f64) -> Self {
         let all: Vec<Instant> = [impacts, rests].concat();
-        let cut = cut_offset(&all, period);
+        let cut = longest_gap_middle(&all, period);
         let cycle = |instant: &Instant| {
             let early = u64::from(instant.offset < cut);
             ((instant.cycles as u64 + periods - early) % periods) as usize
@@ -60,7 +60,7 @@ impl ImpactPattern {
 }
 
 /// Seconds into the drive period at which a pattern is cut: in the middle of the longest time without impacts.
-fn cut_offset(instants: &[Instant], period: f64) -> f64 {
+fn longest_gap_middle(instants: &[Instant], period: f64) -> f64 {
     let mut offsets: Vec<f64> = instants.iter().map(|instant| instant.offset).collect();
     offsets.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (offsets.first(), offsets.last()) else {

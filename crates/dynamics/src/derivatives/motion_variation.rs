@@ -10,7 +10,7 @@ use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 use crate::tolerance::TEST_ROUNDING;
 
 /// A motion from time 0 over some drive periods, with its derivatives by start and parameters.
-pub(super) struct Variation {
+pub(super) struct MotionVariation {
     pub parameters: Vec<Parameter>,
     pub start: Vector2<f64>,
     frequency: f64,
@@ -33,7 +33,7 @@ pub(super) fn phase_derivatives(
         .collect()
 }
 
-impl Variation {
+impl MotionVariation {
     /// The variation of the motion of a scene from a state over some drive periods, by parameters.
     pub fn of_motion(
         scene: &CheckedScene,
@@ -46,11 +46,11 @@ impl Variation {
         let mut recorder = FigureRecorder::new(scene.phases(), &by, motion.clock);
         motion.replay(&mut recorder);
         let columns = recorder
-            .influence
+            .sensitivity
             .columns()
             .ok_or_else(|| OrbitError::no_derivative(parameters))?;
         let supplied = DifferentiatedFigure {
-            value: recorder.influence.supplied,
+            value: recorder.sensitivity.supplied,
             by: columns.iter().map(|column| column.z).collect(),
         };
         Ok(Self {
@@ -65,7 +65,7 @@ impl Variation {
     }
 
     /// Derivatives of the orbit's state at time 0 by each parameter, velocities with the drive's frequency held.
-    pub fn start_rates(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
+    pub fn state_rates(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
         let monodromy = &self.monodromy;
         let size = 1.0 + monodromy.trace().abs() + monodromy.determinant().abs();
         let inverse = (monodromy.fold_test().abs() > 10.0 * TEST_ROUNDING * size)

@@ -1,96 +1,13 @@
 //! Solution curves of any system with one unknown more than equations, by pseudo-arclength continuation (Keller 1977).
 
+use std::fmt::Debug;
+
 use nalgebra::{DMatrix, DVector};
 
+use super::equations::{CurveNode, Equations, Evaluation};
 use crate::linear::solve_linear;
 use crate::orbit::OrbitError;
-use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, ROUNDING_SHARE, TEST_ROUNDING};
-
-/// A system of equations in scaled unknowns; what is known exactly besides the evaluation spares differences.
-pub(crate) trait Equations {
-    /// What an evaluation brings to light besides the residual.
-    type Point: Clone;
-    /// First unknowns for which an evaluation tells the derivatives; those for the others are the slopes.
-    const EXACT: usize = 0;
-
-    /// Evaluates the residual of the equations, and what comes to light besides.
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
-
-    /// Derivatives of the residual, a row for each equation, with these slopes; their error slows the convergence only.
-    fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        let _ = here;
-        slopes.clone()
-    }
-
-    /// Derivatives by the other unknowns, where all of them are known exactly.
-    fn exact_slopes(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
-        let _ = here;
-        None
-    }
-
-    /// The slopes to first order in 1e-6, from the motion that an evaluation keeps; none where it does not tell them.
-    fn slopes_along(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
-        let _ = here;
-        None
-    }
-
-    /// True if Newton's method settles only from guesses very near.
-    fn is_steep(&self, here: &Self::Point) -> bool {
-        let _ = here;
-        false
-    }
-
-    /// Size of the motion at a place, in units of the family's scales; 0 where the unknowns hold no state.
-    fn motion_size(&self, at: &DVector<f64>) -> f64 {
-        let _ = at;
-        0.0
-    }
-
-    /// The residual alone at a place.
-    fn residual(&self, at: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
-        Ok(self.evaluate(at)?.residual)
-    }
-
-    /// The residual beside another place, and whether nothing that breaks a derivative lies between them.
-    fn residual_beside(
-        &self,
-        here: &Self::Point,
-        at: &DVector<f64>,
-    ) -> Result<(DVector<f64>, bool), OrbitError> {
-        let _ = here;
-        Ok((self.residual(at)?, true))
-    }
-}
-
-/// The equations evaluated at one place: residual, its rounding, and what came to light.
-#[derive(Debug, Clone)]
-pub(crate) struct Evaluation<P> {
-    pub residual: DVector<f64>,
-    /// Norm of the residual that rounding alone may leave.
-    pub tolerance: f64,
-    pub point: P,
-}
-
-impl<P> Evaluation<P> {
-    /// This evaluation with one equation more: a test function vanishes.
-    pub fn with_test(self, value: f64) -> Self {
-        Self {
-            residual: self.residual.push(value),
-            tolerance: self.tolerance.max(TEST_ROUNDING),
-            ..self
-        }
-    }
-}
-
-/// A node of a solution curve: the unknowns of a solution, with the equations evaluated there.
-#[derive(Debug, Clone)]
-pub(crate) struct Node<P> {
-    pub at: DVector<f64>,
-    pub here: Evaluation<P>,
-}
-
-/// The nodes at both ends of a step along a curve.
-pub(crate) type Ends<'n, P> = (&'n Node<P>, &'n Node<P>);
+use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, ROUNDING_SHARE};
 
 /// Newton steps of a correction after which each must halve the residual.
 const USUAL_CORRECTIONS: usize = 12;
@@ -107,19 +24,25 @@ pub(crate) fn correct<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
-) -> Result<Node<E::Point>, OrbitError> {
-    correct_with_slopes(equations, guess, normal, &mut None, Accuracy::Full)
+) -> Result<CurveNode<E::Point>, OrbitError> {
+    correct_with_columns(equations, guess, normal, &mut None, Accuracy::Full)
 }
 
 /// Corrects a guess to a solution where the last unknown is given: its slopes play no part.
-pub(crate) fn correct_given<E: Equations>(
+pub(crate) fn correct_with_fixed_parameter<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
-) -> Result<Node<E::Point>, OrbitError> {
+) -> Result<CurveNode<E::Point>, OrbitError> {
     let unknowns = guess.len();
     let normal = DVector::from_fn(unknowns, |row, _| f64::from(u8::from(row + 1 == unknowns)));
-    let mut none = Some(DMatrix::zeros(unknowns - 1, unknowns - E::EXACT));
-    correct_with_slopes(equations, guess, Some(&normal), &mut none, Accuracy::Given)
+    let mut none = Some(DMatrix::zeros(unknowns - 1, unknowns - E::EXACT_COLUMNS));
+    correct_with_columns(
+        equations,
+        guess,
+        Some(&normal),
+        &mut none,
+        Accuracy::FixedParameter,
+    )
 }
 
 /// Accuracy to which solutions are corrected.
@@ -130,17 +53,17 @@ pub(super) enum Accuracy {
     /// To nine digits, and known from the place one Newton step before.
     Quick,
     /// To the last digit, with the last unknown given: slopes play no part.
-    Given,
+    FixedParameter,
 }
 
 /// Corrects a guess by Newton's method with slopes of a place nearby as long as they serve; leaves the last.
-pub(super) fn correct_with_slopes<E: Equations>(
+pub(super) fn correct_with_columns<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
-    slopes: &mut Option<DMatrix<f64>>,
+    columns: &mut Option<DMatrix<f64>>,
     accuracy: Accuracy,
-) -> Result<Node<E::Point>, OrbitError> {
+) -> Result<CurveNode<E::Point>, OrbitError> {
     let mut at = guess.clone();
     let mut last = f64::INFINITY;
     for round in 0..=MAX_CORRECTIONS {
@@ -149,19 +72,19 @@ pub(super) fn correct_with_slopes<E: Equations>(
         let (fits, late) = (size <= here.tolerance, round >= USUAL_CORRECTIONS);
         let is_least = size >= 0.1 * last || size <= ROUNDING_SHARE * here.tolerance;
         if fits && (late || is_least) {
-            return Ok(Node { at, here });
+            return Ok(CurveNode { at, here });
         }
         if late && size > 0.5 * last {
-            if NEAR * size < here.tolerance && size <= noise(equations, &at, &here) {
-                return Ok(Node { at, here });
+            if NEAR * size < here.tolerance && size <= residual_noise(equations, &at, &here) {
+                return Ok(CurveNode { at, here });
             }
             return Err(OrbitError::Diverged { residual: size });
         }
-        let kept = slopes
+        let kept = columns
             .take()
-            .filter(|_| accuracy == Accuracy::Given || size <= STALE_SHARE * last);
+            .filter(|_| accuracy == Accuracy::FixedParameter || size <= STALE_SHARE * last);
         let shrinks = size / std::mem::replace(&mut last, size);
-        let exact = equations.exact_slopes(&here);
+        let exact = equations.exact_columns(&here);
         // Newton's method squares the residual, with slopes that are none it shrinks at the same rate.
         let next = size
             * if exact.is_some() {
@@ -171,10 +94,10 @@ pub(super) fn correct_with_slopes<E: Equations>(
             };
         let known = match exact.or(kept) {
             Some(known) => known,
-            None => slopes_at(equations, &at, &here)?,
+            None => jacobian_columns(equations, &at, &here)?,
         };
         let mut right = here.residual.clone();
-        let mut matrix = -equations.jacobian(&here, slopes.insert(known));
+        let mut matrix = -equations.jacobian(&here, columns.insert(known));
         if let Some(normal) = normal {
             right = right.push(normal.dot(&(guess - &at)));
             matrix = border_matrix(&matrix, normal);
@@ -185,14 +108,18 @@ pub(super) fn correct_with_slopes<E: Equations>(
             _ => return Err(OrbitError::Diverged { residual: size }),
         }
         if accuracy == Accuracy::Quick && round > 0 && next <= ROUNDING {
-            return Ok(Node { at, here });
+            return Ok(CurveNode { at, here });
         }
     }
     Err(OrbitError::Diverged { residual: last })
 }
 
 /// Noise of the residual: how much it changes within the last digits of the unknowns, which an orbit may magnify.
-fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Point>) -> f64 {
+fn residual_noise<E: Equations>(
+    equations: &E,
+    at: &DVector<f64>,
+    here: &Evaluation<E::Point>,
+) -> f64 {
     let change = |digits: &f64| {
         let there = equations.residual(&(at * (1.0 + digits * f64::EPSILON)));
         there.map_or(0.0, |there| (there - &here.residual).norm())
@@ -215,36 +142,38 @@ pub(super) fn border_matrix(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMa
 /// Unit tangent of a solution curve at a node, on the side of `along`, and the slopes there.
 pub(crate) fn curve_tangent<E: Equations>(
     equations: &E,
-    node: &Node<E::Point>,
+    node: &CurveNode<E::Point>,
     along: &DVector<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    let slopes = slopes_at(equations, &node.at, &node.here)?;
-    let matrix = border_matrix(&equations.jacobian(&node.here, &slopes), along);
+    let columns = jacobian_columns(equations, &node.at, &node.here)?;
+    let matrix = border_matrix(&equations.jacobian(&node.here, &columns), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
     match solve_linear(&matrix, &right).map(|found| found.normalize()) {
-        Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok((direction, slopes)),
+        Some(direction) if direction.iter().all(|part| part.is_finite()) => {
+            Ok((direction, columns))
+        }
         _ => Err(OrbitError::NotIsolated),
     }
 }
 
-/// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT`] first ones, exact where the
+/// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT_COLUMNS`] first ones, exact where the
 /// system knows them, otherwise differences, one-sided where the other side is another piece
 /// or has no machine.
-pub(super) fn slopes_at<E: Equations>(
+pub(super) fn jacobian_columns<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
     here: &Evaluation<E::Point>,
 ) -> Result<DMatrix<f64>, OrbitError> {
-    let exact = equations.exact_slopes(here);
-    if let Some(exact) = exact.or_else(|| equations.slopes_along(here)) {
+    let exact = equations.exact_columns(here);
+    if let Some(exact) = exact.or_else(|| equations.variational_columns(here)) {
         return Ok(exact);
     }
     let column = |unknown: usize| {
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
-            equations.residual_beside(&here.point, &at)
+            equations.residual_of_neighbour(&here.point, &at)
         };
         match (beside(DIFFERENCE_WIDTH), beside(-DIFFERENCE_WIDTH)) {
             (Ok((ahead, a)), Ok((behind, b))) if a == b => {
@@ -257,7 +186,7 @@ pub(super) fn slopes_at<E: Equations>(
             (Err(error), Err(_)) => Err(error),
         }
     };
-    let columns = (E::EXACT..at.len()).map(column);
+    let columns = (E::EXACT_COLUMNS..at.len()).map(column);
     Ok(DMatrix::from_columns(
         &columns.collect::<Result<Vec<_>, _>>()?,
     ))

@@ -1,13 +1,12 @@
 //! The periodic orbit to which segments from impact to impact close, with its monodromy matrix as a product over them.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 use super::contact_passage::ContactPassage;
-use super::multi_segment_shooting::{MultiSegmentShooting, ShootingEvaluation, Unknowns};
+use super::multi_segment_shooting::{ImpactUnknowns, MultiSegmentShooting, ShootingEvaluation};
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
-use crate::tolerance::ROUNDING;
 use softstop::internals::{LinearLaw, Motion, NextEvent, PhaseId, first_crossing};
-use softstop::{CheckedScene, Clock, ImpactEvent, Instant, Tangent};
+use softstop::{Clock, ImpactEvent, Instant, Tangent};
 
 /// Share of the drive period by which an impact found by its crossing may precede the one that segments were shot to: by the
 /// square root of what Newton's method leaves, where the impact is weak.
@@ -15,12 +14,12 @@ const IMPACT_TIME_TOLERANCE: f64 = 1e-4;
 
 impl MultiSegmentShooting {
     /// The periodic orbit through impacts between which the segments of the shooting fit.
-    pub(super) fn close_orbit(
+    pub(super) fn orbit_of_segments(
         &self,
-        at: &Unknowns,
+        at: &ImpactUnknowns,
         evaluation: &ShootingEvaluation,
     ) -> Result<Orbit, OrbitError> {
-        self.check_flights(at, evaluation)?;
+        self.refuse_flights_through_stop(at, evaluation)?;
         let clock = self.face.clock;
         let mut impacts: Vec<(f64, f64, &ContactPassage)> = evaluation
             .passages
@@ -41,18 +40,18 @@ impl MultiSegmentShooting {
             let matrix = self
                 .face
                 .entry_saltation(clock.instant(time), velocity, passing);
-            (matrix, matrix.determinant())
+            Monodromy::with_determinant(matrix, matrix.determinant())
         };
         for pair in impacts.windows(2) {
             let (time, _, passing) = pair[0];
             let flight = pair[1].0 - time - passing.lasting;
             let free = flight_factor(&passing.course.flow, flight);
-            factors.extend([entry(&pair[0]), factor(&passing.tangent), free]);
+            factors.extend([entry(&pair[0]), Monodromy::from(&passing.tangent), free]);
         }
         factors.extend(impacts.last().map(entry));
         if free >= 0.0 {
             factors.extend([
-                factor(&last.tangent),
+                Monodromy::from(&last.tangent),
                 flight_factor(&last.course.flow, free),
             ]);
         } else {
@@ -76,15 +75,15 @@ impl MultiSegmentShooting {
             impacts: impacts.iter().map(touch).collect(),
             rests: Vec::new(),
             max_position: map.max_position(state)?.max(self.face.surface_position()),
-            monodromy: Monodromy::from_factors(&factors),
+            monodromy: Monodromy::product(&factors),
             damping_integral: lost + last.course.flow.damping() * (self.span() - touched),
         })
     }
 
     /// Refuses impacts between which the free flight hits the stop.
-    fn check_flights(
+    fn refuse_flights_through_stop(
         &self,
-        at: &Unknowns,
+        at: &ImpactUnknowns,
         evaluation: &ShootingEvaluation,
     ) -> Result<(), OrbitError> {
         let count = evaluation.passages.len();
@@ -109,11 +108,11 @@ impl MultiSegmentShooting {
         &self,
         time: f64,
         last: &ContactPassage,
-    ) -> Result<(Vector2<f64>, MonodromyFactor), OrbitError> {
+    ) -> Result<(Vector2<f64>, Monodromy), OrbitError> {
         let from = self.face.clock.instant(time);
         let mut motion = self.face.release(from, last.velocity_after)?;
         let tangent = advance_with_tangent(&mut motion, Clock::at_cycle(self.periods))?;
-        Ok((motion.state().into(), factor(&tangent)))
+        Ok((motion.state().into(), Monodromy::from(&tangent)))
     }
 
     /// The monodromy factor from the period's beginning, `-free` s of it in contact, to the first impact.
@@ -122,7 +121,7 @@ impl MultiSegmentShooting {
         time: f64,
         free: f64,
         state: Vector2<f64>,
-    ) -> Result<MonodromyFactor, OrbitError> {
+    ) -> Result<Monodromy, OrbitError> {
         let flow = self.face.phases[PhaseId::FREE].flow;
         if free >= 0.0 {
             return Ok(flight_factor(&flow, time));
@@ -131,22 +130,15 @@ impl MultiSegmentShooting {
         // The mass may leave a little later than it did by the contact that began before.
         let between = 0.5 * (time - free);
         let tangent = advance_with_tangent(&mut motion, self.face.clock.instant(between))?;
-        let (transition, kept) = flight_factor(&flow, time - between);
-        Ok((transition * tangent.matrix, kept * tangent.determinant))
+        let flight = flight_factor(&flow, time - between);
+        Ok(Monodromy::product(&[Monodromy::from(&tangent), flight]))
     }
 }
 
-/// A factor of a monodromy matrix, with its determinant.
-type MonodromyFactor = (Matrix2<f64>, f64);
-
-/// The factor of a monodromy matrix that a tangent stands for.
-fn factor(tangent: &Tangent) -> MonodromyFactor {
-    (tangent.matrix, tangent.determinant)
-}
-
 /// The factor of a monodromy matrix by a free flight over a time in s.
-fn flight_factor(flow: &LinearLaw, elapsed: f64) -> MonodromyFactor {
-    (flow.transition(elapsed), (-flow.damping() * elapsed).exp())
+fn flight_factor(flow: &LinearLaw, elapsed: f64) -> Monodromy {
+    let determinant = (-flow.damping() * elapsed).exp();
+    Monodromy::with_determinant(flow.transition(elapsed), determinant)
 }
 
 /// Advances a motion to an instant, and returns the tangent of its way.
@@ -155,47 +147,4 @@ fn advance_with_tangent(motion: &mut Motion, until: Instant) -> Result<Tangent, 
     motion.advance(until, &mut tangent)?;
     motion.tell_arc(&mut tangent);
     Ok(tangent)
-}
-
-impl Orbit {
-    /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s
-    /// and before-impact velocities in m/s of all impacts near its own. It is regular down to grazing,
-    /// where the map is not. No impact may come to rest.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if it does not settle, or on impacts between which there are others.
-    pub fn find_by_impacts(
-        scene: &CheckedScene,
-        periods: u64,
-        impacts: &[(f64, f64)],
-    ) -> Result<Self, OrbitError> {
-        let none = OrbitError::OtherRegime { impacts: 0 };
-        if impacts.is_empty() {
-            return Err(none);
-        }
-        let shooting = MultiSegmentShooting::new(scene, periods.max(1)).ok_or(none)?;
-        let guess = shooting.evaluate_guess(impacts).ok_or(OrbitError::LOST)?;
-        let orbit = shooting.solve(guess, &[])?;
-        let all = orbit.timed_impacts();
-        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
-            let share = all.len() as u64 * part;
-            if share.is_multiple_of(periods) && orbit.repeats_after(&all, part) {
-                let first = &all[..(share / periods) as usize];
-                return Self::find_by_impacts(scene, part, first);
-            }
-        }
-        Ok(orbit)
-    }
-
-    /// True if the impacts of an orbit are the same after `part` of its drive periods.
-    fn repeats_after(&self, impacts: &[(f64, f64)], part: u64) -> bool {
-        let period = self.scene.clock().period();
-        let shift = impacts.len() * part as usize / self.periods as usize;
-        let span = period * part as f64;
-        let speed = self.scene.scales().speed();
-        let pairs = impacts.iter().zip(&impacts[shift..]);
-        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
-        let most = ROUNDING * (1.0 + self.velocity.abs() / speed);
-        pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
-    }
 }

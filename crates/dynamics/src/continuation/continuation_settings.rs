@@ -1,5 +1,7 @@
 //! Settings of a continuation.
 
+use std::fmt::Debug;
+
 use softstop::SceneError;
 
 /// Open range of a setting, and how it is told.
@@ -37,7 +39,7 @@ settings! {
 /// are those of scaled unknowns, position and velocity in units of the family's scales and parameters as
 /// `scaled_parameters` of a [`Family`](super::Family) has them; all values are > 0.
 /// [`Continuation::follow_points`](super::Continuation::follow_points), which looks for no special points, takes longer steps
-/// and has values of its own for `first_step`, `largest_step`, `step_growth` and `min_turn_cosine`.
+/// and has values of its own for `first_step`, `largest_step`, `step_monodromy_norm` and `min_turn_cosine`.
 ///
 /// ```
 /// use softstop::{Parameter, Ratios};

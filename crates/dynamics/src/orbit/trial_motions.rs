@@ -15,11 +15,11 @@ const START_SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
 /// Directions of the starts of trial motions in the plane (w x, x').
 const START_DIRECTIONS: usize = 16;
 /// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
-pub(super) const NEAR_RETURN: f64 = 0.2;
+pub(super) const MAX_CANDIDATE_MOVE: f64 = 0.2;
 
 /// A state of a trial motion that may lie near an orbit.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Candidate {
+pub(super) struct OrbitCandidate {
     /// Distance that the state has moved within the last period, 0 where that says nothing.
     pub moves: f64,
     pub state: Vector2<f64>,
@@ -34,23 +34,23 @@ pub(super) fn scaled_distance(scales: &Scales, a: Vector2<f64>, b: Vector2<f64>)
 
 /// A trial motion from one start.
 #[derive(Debug, Clone)]
-pub(super) struct Trial {
+pub(super) struct TrialMotion {
     machine: usize,
     /// The state after the last period, and how far it moved.
-    pub last: Candidate,
+    pub last: OrbitCandidate,
     /// Impacts in the present drive period.
     impacts: u64,
     /// The state that moved least within a period with one impact, where it moved little.
-    least: Option<Candidate>,
+    least: Option<OrbitCandidate>,
     /// Its states after each of the numbers of periods that are kept.
-    settled: Vec<(u64, Candidate)>,
+    settled: Vec<(u64, OrbitCandidate)>,
     /// True as long as the trial is followed further.
     pub is_open: bool,
 }
 
 /// Trial motions of some machines from starts all around, followed together for a search.
-pub(super) struct Trials {
-    all: Vec<Trial>,
+pub(super) struct TrialMotions {
+    all: Vec<TrialMotion>,
     /// Scales of the motions of each machine.
     scales: Vec<Scales>,
     /// Numbers of drive periods after which the states of trials are kept.
@@ -59,15 +59,15 @@ pub(super) struct Trials {
     cycle: u64,
 }
 
-impl Trials {
+impl TrialMotions {
     /// Trial motions of some scenes, of which the states after the `kept` numbers of drive periods are kept.
     pub(super) fn new<'a>(scenes: impl Iterator<Item = &'a Scene>, kept: Vec<u64>) -> Self {
         let (mut all, mut scales) = (Vec::new(), Vec::new());
         for (machine, scene) in scenes.enumerate() {
             scales.push(scene.motion_scales());
-            all.extend(starts_on_circles(scene).map(|start| Trial {
+            all.extend(starts_on_circles(scene).map(|start| TrialMotion {
                 machine,
-                last: Candidate::unmoved_state(start.into()),
+                last: OrbitCandidate::unmoved_state(start.into()),
                 impacts: 0,
                 least: None,
                 settled: Vec::new(),
@@ -83,14 +83,14 @@ impl Trials {
     }
 
     /// The trial motions of one machine.
-    pub(super) fn of_machine(&mut self, machine: usize) -> &mut [Trial] {
+    pub(super) fn trials_of_machine(&mut self, machine: usize) -> &mut [TrialMotion] {
         let each = self.all.len() / self.scales.len();
         &mut self.all[machine * each..(machine + 1) * each]
     }
 
     /// Follows the open trial motions up to a number of drive periods in all.
     pub(super) fn follow_trials(&mut self, machines: &[Machine], until: u64, monitor: Monitor<'_>) {
-        let mut open: Vec<&mut Trial> = self.all.iter_mut().filter(|it| it.is_open).collect();
+        let mut open: Vec<&mut TrialMotion> = self.all.iter_mut().filter(|it| it.is_open).collect();
         let lasting = until - self.cycle;
         let motions = open.iter();
         let motions = motions.map(|it| (it.machine, it.last.state.into(), lasting));
@@ -107,7 +107,7 @@ impl Trials {
     }
 }
 
-impl Candidate {
+impl OrbitCandidate {
     /// A candidate at a state of which no period is known.
     fn unmoved_state(state: Vector2<f64>) -> Self {
         Self {
@@ -119,14 +119,14 @@ impl Candidate {
 }
 
 /// Of some trials the states that move least within a period with one impact, where they move little, the least first.
-pub(super) fn least_moved(trials: &[Trial]) -> Vec<Candidate> {
-    let mut least: Vec<Candidate> = trials.iter().filter_map(|it| it.least).collect();
+pub(super) fn least_moved(trials: &[TrialMotion]) -> Vec<OrbitCandidate> {
+    let mut least: Vec<OrbitCandidate> = trials.iter().filter_map(|it| it.least).collect();
     least.sort_by(|a, b| a.moves.total_cmp(&b.moves));
     least
 }
 
 /// Where some trials were after each of these numbers of periods, as candidates that do not move.
-pub(super) fn settled_candidates(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
+pub(super) fn settled_candidates(trials: &[TrialMotion], after: &[u64]) -> Vec<OrbitCandidate> {
     let of = |after: u64| {
         trials
             .iter()
@@ -141,7 +141,7 @@ pub(super) fn settled_candidates(trials: &[Trial], after: &[u64]) -> Vec<Candida
 
 /// An observer of a batch that keeps of each trial what becomes a candidate.
 struct TrialRecorder<'a, 'b> {
-    trials: &'a mut [&'b mut Trial],
+    trials: &'a mut [&'b mut TrialMotion],
     scales: &'a [Scales],
     kept: &'a [u64],
     /// Drive periods that the trials were followed before this batch.
@@ -160,21 +160,21 @@ impl BatchObserver for TrialRecorder<'_, '_> {
         let trial = &mut *self.trials[job];
         let (state, before) = (state.into(), trial.last.state);
         let moves = scaled_distance(&self.scales[trial.machine], state, before);
-        trial.last = Candidate {
+        trial.last = OrbitCandidate {
             moves,
             state,
             before,
         };
         let cycle = self.since + cycle;
         if self.kept.contains(&cycle) {
-            let settled = Candidate {
+            let settled = OrbitCandidate {
                 moves: 0.0,
                 ..trial.last
             };
             trial.settled.push((cycle, settled));
         }
         let impacts = std::mem::take(&mut trial.impacts);
-        if impacts == 1 && moves < trial.least.map_or(NEAR_RETURN, |least| least.moves) {
+        if impacts == 1 && moves < trial.least.map_or(MAX_CANDIDATE_MOVE, |least| least.moves) {
             trial.least = Some(trial.last);
         }
     }

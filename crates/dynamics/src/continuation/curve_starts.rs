@@ -5,18 +5,18 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
 
-use super::Family;
-use super::codimension_two::{CodimensionTwo, CurvePoint};
-use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
-use super::follow::Continuation;
-use super::point::{BranchLimits, GrazingTouch, SpecialKind};
-use super::section_system::SectionSystem;
-use super::settings::ContinuationSettings;
-use super::shooting::{Critical, Shooting};
-use super::test_function::TestFunction;
+use super::bifurcation_curve::follow_curve;
+use super::continuation_settings::ContinuationSettings;
+use super::family::RestrictedFamily;
+use super::impact_section_system::ImpactSectionSystem;
+use super::stroboscopic_shooting::{CriticalShooting, Shooting};
+use super::{
+    BranchLimits, CodimensionTwo, Continuation, Curve, CurveEnd, CurveLimits, CurvePoint, Family,
+    GrazingTouch, SpecialKind, TestFunction,
+};
 use crate::monitor::stop_if;
-use crate::orbit::OrbitError;
-use softstop::{CheckedScene, MotionError};
+use crate::orbit::{Monodromy, OrbitError};
+use softstop::MotionError;
 
 /// Follows a special point, of this kind and with this state at time 0, in both directions of two parameters.
 /// `parameters` are its own: that of the branch and the value of the second; `watch` sees each point as it comes.
@@ -32,13 +32,14 @@ pub fn follow_special(
     mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
     region.settings.validate().map_err(MotionError::from)?;
-    let mut found = follow_raw(family, periods, special, parameters, region, &mut watch)?;
+    let mut found =
+        follow_without_flip_end(family, periods, special, parameters, region, &mut watch)?;
     end_in_flips(family, &mut found, region);
     Ok(found)
 }
 
 /// Follows a special point as [`follow_special`] does, without the last point of folds that end in flips.
-fn follow_raw(
+fn follow_without_flip_end(
     family: &dyn Family<2>,
     periods: u64,
     (kind, state): (SpecialKind, Vector2<f64>),
@@ -49,9 +50,9 @@ fn follow_raw(
     match kind {
         SpecialKind::Critical(test) => {
             let shooting = Shooting::new(family, periods);
-            let guess = shooting.scaled(state, parameters);
-            let critical = Critical { shooting, test };
-            match SectionSystem::at_orbit((family, periods), test, state, parameters)? {
+            let guess = shooting.scaled_unknowns(state, parameters);
+            let critical = CriticalShooting { shooting, test };
+            match ImpactSectionSystem::at_orbit((family, periods), test, state, parameters)? {
                 Some((at_impact, impact)) => follow_curve(&at_impact, kind, &impact, region, watch)
                     .or_else(|_| follow_curve(&critical, kind, &guess, region, watch)),
                 None => follow_curve(&critical, kind, &guess, region, watch),
@@ -59,7 +60,7 @@ fn follow_raw(
         }
         SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
         SpecialKind::Grazing(graze) => {
-            let touching = SectionSystem::of_graze(&graze, (family, periods));
+            let touching = ImpactSectionSystem::of_graze(&graze, (family, periods));
             let guess = touching.scaled_unknowns(&[graze.angle], parameters);
             follow_curve(&touching, kind, &guess, region, watch)
         }
@@ -79,7 +80,7 @@ pub(super) fn end_in_flips(family: &dyn Family<2>, folds: &mut Curve, region: &C
     for end in [&mut folds.ends.1, &mut folds.ends.0] {
         // After two turns the curve runs as before.
         if let (CurveEnd::Lost(_), Some(last)) = (&*end, folds.points.last())
-            && let Some(flip) = flip_near(family, folds.periods / 2, last, region)
+            && let Some(flip) = generalised_flip_near(family, folds.periods / 2, last, region)
         {
             folds.points.push(flip.clone());
             folds.specials.push((special, flip));
@@ -91,7 +92,7 @@ pub(super) fn end_in_flips(family: &dyn Family<2>, folds: &mut Curve, region: &C
 }
 
 /// The generalised flip near a point of a curve of folds of twice the period, as one of those, if there is one.
-fn flip_near(
+fn generalised_flip_near(
     family: &dyn Family<2>,
     periods: u64,
     point: &CurvePoint,
@@ -110,7 +111,7 @@ fn flip_near(
     };
     let flip = (SpecialKind::Critical(TestFunction::Flip), point.state());
     let go_on = &mut |_: &_| ControlFlow::Continue(());
-    let flips = follow_raw(family, periods, flip, point.parameters, &region, go_on);
+    let flips = follow_without_flip_end(family, periods, flip, point.parameters, &region, go_on);
     let place = |point: &CurvePoint| Vector2::from(family.scaled_parameters(point.parameters));
     let is_near = |found: &CurvePoint| (place(found) - place(point)).amax() <= step * points as f64;
     let specials = flips.ok()?.specials.into_iter();
@@ -118,7 +119,7 @@ fn flip_near(
     let flip = flips.map(|it| it.1).find(is_near)?;
     Some(CurvePoint {
         impacts: flip.impacts.repeat(2),
-        monodromy: flip.monodromy.squared(),
+        monodromy: Monodromy::product(&[flip.monodromy; 2]),
         ..flip
     })
 }
@@ -157,11 +158,11 @@ pub fn switch_curves(
             let curve = match (special, kind) {
                 (CodimensionTwo::ResonantGrazing(graze), SpecialKind::Critical(test)) => {
                     let place = (periods, graze, point.parameters);
-                    from_grazing(family, place, test, region, &mut watch)
+                    follow_from_resonant_grazing(family, place, test, region, &mut watch)
                 }
                 _ => {
                     let start = match kind == folds {
-                        true => fold_beside(family, from, point, region),
+                        true => fold_near_generalised_flip(family, from, point, region),
                         false => Some((point.state(), point.parameters)),
                     };
                     start.and_then(|(state, at)| {
@@ -176,14 +177,14 @@ pub fn switch_curves(
 }
 
 /// The curve of folds or flips that begins in resonant grazing.
-fn from_grazing(
+fn follow_from_resonant_grazing(
     family: &dyn Family<2>,
     (periods, graze, parameters): (u64, &GrazingTouch, [f64; 2]),
     test: TestFunction,
     region: &CurveLimits,
     watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
-    let touching = SectionSystem::of_graze(graze, (family, periods));
+    let touching = ImpactSectionSystem::of_graze(graze, (family, periods));
     let touch = touching.scaled_unknowns(&[graze.angle], parameters);
     let beside = |velocity: &f64| touching.with_weak_impact(&touch, test, *velocity).ok();
     let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
@@ -194,7 +195,7 @@ fn from_grazing(
 }
 
 /// State and parameters of a fold of orbits of twice the period beside a generalised flip on a curve of flips.
-fn fold_beside(
+fn fold_near_generalised_flip(
     family: &dyn Family<2>,
     flips: &Curve,
     generalised: &CurvePoint,
@@ -214,13 +215,13 @@ fn fold_beside(
     beside.find_map(|flip| {
         let [slope, _] = family.parameter_slopes(flip.parameters);
         let within = off(flip) * slope;
-        fold_of_doubled(family, flips.periods, flip, within, region)
+        fold_of_doubled_orbits(family, flips.periods, flip, within, region)
     })
 }
 
 /// The first fold of the doubled orbits of a flip along the first parameter, so near to it at most. A generalised flip is
 /// farther from the flip than such a fold is: that one only by the square of its distance.
-fn fold_of_doubled(
+fn fold_of_doubled_orbits(
     family: &dyn Family<2>,
     periods: u64,
     flip: &CurvePoint,
@@ -245,29 +246,4 @@ fn fold_of_doubled(
     let branch = branch.ok()?;
     let fold = branch.critical_points(TestFunction::Fold).next()?;
     Some((fold.state(), [fold.parameter, second]))
-}
-
-/// A family at one value of its second parameter.
-#[derive(Debug)]
-struct RestrictedFamily<'a> {
-    family: &'a dyn Family<2>,
-    second: f64,
-}
-
-impl Family for RestrictedFamily<'_> {
-    fn scene(&self, [first]: [f64; 1]) -> Result<CheckedScene, MotionError> {
-        self.family.scene([first, self.second])
-    }
-
-    fn state_scales(&self) -> [f64; 2] {
-        self.family.state_scales()
-    }
-
-    fn parameter_scales(&self) -> [f64; 1] {
-        [self.family.parameter_scales()[0]]
-    }
-
-    fn by_frequency(&self) -> [Option<f64>; 1] {
-        [self.family.by_frequency()[0]]
-    }
 }

@@ -9,10 +9,10 @@ use nalgebra::{Matrix2, Vector2};
 
 use softstop::{CheckedScene, Clock, Parameter, Scene, SceneError};
 
-use super::variation::{Variation, phase_derivatives};
+use super::motion_variation::{MotionVariation, phase_derivatives};
 use crate::continuation::{
     BranchPoint, Continuation, GrazingTouch, LastArc, SpecialKind, SpecialPoint, TestFunction,
-    derivatives_by, find_grazing,
+    end_derivatives_by, find_grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
@@ -222,7 +222,7 @@ fn fold_rates(
     point: &BranchPoint,
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
-    let variation = Variation::of_motion(scene, point.state(), periods, parameters)?;
+    let variation = MotionVariation::of_motion(scene, point.state(), periods, parameters)?;
     let a = variation.monodromy.matrix - Matrix2::identity();
     let candidates = [Vector2::new(a.m21, -a.m11), Vector2::new(a.m22, -a.m12)];
     let speed = scene.scales().rate;
@@ -244,7 +244,7 @@ fn test_rates(
     (test, point): (TestFunction, &BranchPoint),
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
-    let variation = Variation::of_motion(scene, point.state(), periods, parameters)?;
+    let variation = MotionVariation::of_motion(scene, point.state(), periods, parameters)?;
     let rates = variation.stability_rates(scene, periods)?.into_iter();
     let rate = |[trace, determinant]: [f64; 2]| match test {
         TestFunction::NeimarkSacker => determinant,
@@ -273,7 +273,7 @@ fn grazing_rates(
         LastArc::carry_past(&scene, start, (graze.crossings, Clock::at_cycle(periods)))?.motion;
     let all = [parameters, &[Parameter::Phase]].concat();
     let by = phase_derivatives(&scene, &all)?;
-    let ends = derivatives_by((&motion, start, true), &by).ok_or_else(missing)?;
+    let ends = end_derivatives_by((&motion, start, true), &by).ok_or_else(missing)?;
     let drift = |index: usize| {
         let (end, begin) = ends[index];
         end - begin * Vector2::x()

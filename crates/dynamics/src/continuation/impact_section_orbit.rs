@@ -1,11 +1,12 @@
 //! Orbits seen from a surface at which they begin, and to which their last arc is taken back.
 
+use std::fmt::Debug;
 use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 
 use nalgebra::{DVector, Vector2};
 
-use super::sequence::Sequence;
+use super::crossing_counts::CrossingCounts;
 use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::{NEAR, ROUNDING};
@@ -13,7 +14,7 @@ use softstop::{Arc, CheckedScene, Crossing, CrossingKind, Instant, Observer, Sta
 
 /// An orbit seen from an impact section.
 #[derive(Debug, Clone)]
-pub(crate) struct SectionPoint {
+pub(crate) struct ImpactSectionOrbit {
     /// The unknowns that it belongs to.
     pub place: DVector<f64>,
     /// The orbit around from the section.
@@ -28,13 +29,13 @@ pub(crate) struct SectionPoint {
     pub is_cut: bool,
 }
 
-impl SectionPoint {
+impl ImpactSectionOrbit {
     /// What the orbit crosses, as far as that may change along a curve.
-    pub fn crossing_sequence(&self) -> Sequence {
-        Sequence {
+    pub fn crossing_counts(&self) -> CrossingCounts {
+        CrossingCounts {
             impacts: self.impacts.len(),
             surfaces: usize::from(self.is_cut),
-            ..Sequence::default()
+            ..CrossingCounts::default()
         }
     }
 }

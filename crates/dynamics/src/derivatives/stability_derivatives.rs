@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use softstop::{Parameter, Scene};
 
 use super::figure_recorder::DifferentiatedFigure;
-use super::variation::Variation;
+use super::motion_variation::MotionVariation;
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::SAME;
 
@@ -58,7 +58,8 @@ pub fn differentiate_stability(
     orbit: &Orbit,
     parameters: &[Parameter],
 ) -> Result<StabilityDerivatives, OrbitError> {
-    let variation = Variation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let variation =
+        MotionVariation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let rates = variation.stability_rates(&orbit.scene, orbit.periods)?;
     let figure = |value: f64, which: usize| DifferentiatedFigure {
         value,
@@ -70,14 +71,14 @@ pub fn differentiate_stability(
     })
 }
 
-impl Variation {
+impl MotionVariation {
     /// Derivatives of trace and determinant of the monodromy matrix along the orbit, by each parameter.
     pub(super) fn stability_rates(
         &self,
         scene: &Scene,
         periods: u64,
     ) -> Result<Vec<[f64; 2]>, OrbitError> {
-        let (positions, velocities) = self.start_state(&self.start_rates()?);
+        let (positions, velocities) = self.start_state(&self.state_rates()?);
         let impacts = self.watched.impacts.len();
         let ways = positions.by.iter().zip(&velocities.by);
         let each = self.parameters.iter().zip(ways);

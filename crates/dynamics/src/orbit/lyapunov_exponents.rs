@@ -58,7 +58,7 @@ impl LyapunovExponents {
         let mut walk = TangentMotion::new(scene, state)?;
         let batch = batch.max(1);
         let mut sums = Vec::with_capacity(BATCHES);
-        walk.add_batches(&mut sums, batch, ask)?;
+        walk.add_growth_batches(&mut sums, batch, ask)?;
         Ok((Self::of_batches(&sums, batch, scene.period()), walk.state))
     }
 
@@ -72,7 +72,7 @@ impl LyapunovExponents {
         let mut walk = TangentMotion::new(scene, state)?;
         let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), LYAPUNOV_BATCH_PERIODS.0);
         loop {
-            walk.add_batches(&mut sums, batch, || Ok::<(), MotionError>(()))?;
+            walk.add_growth_batches(&mut sums, batch, || Ok::<(), MotionError>(()))?;
             let found = Self::of_batches(&sums, batch, scene.period());
             let largest = found.per_period[0];
             let is_clear = largest.abs() > SIGN_ERRORS * found.error;
@@ -175,7 +175,7 @@ impl TangentMotion {
     }
 
     /// Adds sums of growth over batches of drive periods until there are enough; an error where `ask` gives one.
-    pub fn add_batches<E: From<MotionError>>(
+    pub fn add_growth_batches<E: From<MotionError>>(
         &mut self,
         batches: &mut Vec<[f64; 2]>,
         periods: u64,
@@ -187,7 +187,7 @@ impl TangentMotion {
                 ask()?;
                 let passage = self.map.apply(self.state)?;
                 self.state = passage.end;
-                let [first, second] = carry_frame(&mut self.frame, &passage.monodromy);
+                let [first, second] = carry_frame_through(&mut self.frame, &passage.monodromy);
                 sums[0] += first;
                 sums[1] += second;
             }
@@ -198,7 +198,7 @@ impl TangentMotion {
 }
 
 /// Carries an orthonormal frame through a Jacobian: M Q = Q' R. Returns ln |R| on the diagonal.
-fn carry_frame(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
+fn carry_frame_through(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
     let image = jacobian * *frame;
     let first = image.column(0).into_owned();
     let length = first.norm();

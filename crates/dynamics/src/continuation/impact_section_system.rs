@@ -9,17 +9,18 @@
 //! grazing: arXiv 2506.18379, arXiv 2510.16218.)
 
 use std::f64::consts::TAU;
+use std::fmt::Debug;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
-use super::Family;
-use super::arclength::{Equations, Evaluation, Node, correct};
-use super::face::SwitchingSurface;
-use super::period_map::{carry_through, half_way, state_after};
-use super::point::GrazingTouch;
-use super::section_orbit::{LastArc, NO_CROSSING, SectionPoint};
-use super::shooting::{end_derivatives, is_symmetric, round_off};
-use super::test_function::TestFunction;
+use super::end_derivatives::end_derivatives;
+use super::equations::{CurveNode, Equations, Evaluation};
+use super::impact_section_orbit::{ImpactSectionOrbit, NO_CROSSING};
+use super::newton_corrector::correct;
+use super::period_map::{advance_over_periods, half_way_instant, state_after_periods};
+use super::stroboscopic_shooting::residual_rounding;
+use super::symmetric_orbits::is_symmetric;
+use super::{Family, GrazingTouch, LastArc, SwitchingSurface, TestFunction};
 use crate::orbit::{Monodromy, OrbitError};
 use crate::record_trajectory::record_trajectory;
 use softstop::internals::Phase;
@@ -40,7 +41,7 @@ pub(crate) enum SectionCondition {
 /// Orbits of a family that fulfil a condition at an impact section, the surface at which they begin and end, in unknowns: drive
 /// angle there, scaled velocity of an impact, scaled parameters.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SectionSystem<'a, const N: usize> {
+pub(crate) struct ImpactSectionSystem<'a, const N: usize> {
     pub family: &'a dyn Family<N>,
     pub periods: u64,
     /// Crossings of an orbit between its begin and its last arc, a touch left out.
@@ -53,7 +54,7 @@ pub(crate) struct SectionSystem<'a, const N: usize> {
     pub condition: SectionCondition,
 }
 
-impl<'a, const N: usize> SectionSystem<'a, N> {
+impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
     /// The grazing orbits of a family over a number of drive periods that touch as another one does.
     pub fn of_graze(graze: &GrazingTouch, (family, periods): (&'a dyn Family<N>, u64)) -> Self {
         Self {
@@ -79,7 +80,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         let scene = family.scene(parameters)?;
         let end = Clock::at_cycle(periods);
         let motion = record_trajectory(&scene, state, |motion, kept| {
-            carry_through(motion, end, kept)
+            advance_over_periods(motion, end, kept)
         })?;
         let entries = motion.crossings().filter(|it| {
             let enters = matches!(it.kind, CrossingKind::Surface { forward: true, .. });
@@ -90,7 +91,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
             return Ok(None);
         };
         let face = SwitchingSurface::at_position(&scene, entry.position);
-        let Some(face) = face.filter(|face| face.is_steep(&scene)) else {
+        let Some(face) = face.filter(|face| face.has_square_root(&scene)) else {
             return Ok(None);
         };
         let is_told = matches!(entry.kind, CrossingKind::Rebound { .. });
@@ -119,7 +120,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         touch: &DVector<f64>,
         test: TestFunction,
         velocity: f64,
-    ) -> Result<(Self, Node<SectionPoint>), OrbitError> {
+    ) -> Result<(Self, CurveNode<ImpactSectionOrbit>), OrbitError> {
         if self.is_symmetric {
             return Err(OrbitError::NotIsolated);
         }
@@ -193,8 +194,8 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         let begin = Vector2::new(position, self.velocity(at));
         let (left, half) = (self.periods as f64 - gone, 0.5 * self.periods as f64);
         Ok(match self.is_symmetric && left > half {
-            true => -state_after(&scene, begin, left - half)?,
-            false => state_after(&scene, begin, left)?,
+            true => -state_after_periods(&scene, begin, left - half)?,
+            false => state_after_periods(&scene, begin, left)?,
         })
     }
 
@@ -206,7 +207,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
     }
 
     /// The touch of a grazing orbit, as of a crossing that dies.
-    pub fn graze_at(&self, node: &Node<SectionPoint>) -> GrazingTouch {
+    pub fn graze_at(&self, node: &CurveNode<ImpactSectionOrbit>) -> GrazingTouch {
         GrazingTouch {
             angle: node.at[0],
             impacts: node.here.point.impacts.len(),
@@ -221,14 +222,14 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
     }
 
     /// The orbit around from the section, how far it is off when it comes back, scaled, its scene, and where it begins.
-    fn carry_around(
+    fn carry_to_section(
         &self,
         at: &DVector<f64>,
     ) -> Result<(Vector2<f64>, LastArc, CheckedScene, Vector2<f64>), OrbitError> {
         let (scene, position) = self.scene_at(at[0], self.parameters(at))?;
         let begin = Vector2::new(position, self.velocity(at));
         let until = match self.is_symmetric {
-            true => half_way(&scene, self.periods),
+            true => half_way_instant(&scene, self.periods),
             false => Clock::at_cycle(self.periods),
         };
         let around = LastArc::carry_past(&scene, begin, (self.crossings, until))?;
@@ -237,16 +238,16 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
     }
 }
 
-impl<const N: usize> Equations for SectionSystem<'_, N> {
-    type Point = SectionPoint;
+impl<const N: usize> Equations for ImpactSectionSystem<'_, N> {
+    type Point = ImpactSectionOrbit;
 
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<ImpactSectionOrbit>, OrbitError> {
         let test = self.critical_test();
         if test.is_some() && at[1] <= 0.0 {
             let residual = f64::INFINITY;
             return Err(OrbitError::Diverged { residual });
         }
-        let (drift, around, scene, begin) = self.carry_around(at)?;
+        let (drift, around, scene, begin) = self.carry_to_section(at)?;
         let tangent = around.motion.tangent();
         let entry = test.and_then(|_| entry_jump(&around.motion, &scene, begin));
         let is_impact = entry.is_some() && self.face.is_clearance();
@@ -254,23 +255,23 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
         let told = told.map(|it| it.before_impact_velocity);
         let own = is_impact.then_some(begin.y.abs()).into_iter();
         let mut impacts: Vec<f64> = own.chain(told).collect();
-        let mut factors = vec![
-            (entry.unwrap_or_else(Matrix2::identity), 1.0),
-            (tangent.matrix, tangent.determinant),
+        let mut parts = vec![
+            Monodromy::with_determinant(entry.unwrap_or_else(Matrix2::identity), 1.0),
+            Monodromy::from(&tangent),
         ];
         if self.is_symmetric {
             // The way back is the mirror image of the way there.
             impacts.extend_from_within(..);
-            factors.extend_from_within(..);
+            parts.extend_from_within(..);
         }
         let sizes = self.family.state_scales();
         let orbit = Evaluation {
             residual: DVector::from_column_slice(drift.as_slice()),
-            tolerance: round_off(&scene, &begin, &Monodromy::from(&tangent), sizes),
-            point: SectionPoint {
+            tolerance: residual_rounding(&scene, &begin, &Monodromy::from(&tangent), sizes),
+            point: ImpactSectionOrbit {
                 place: at.clone(),
                 motion: around.motion.into(),
-                monodromy: Monodromy::from_factors(&factors),
+                monodromy: Monodromy::product(&parts),
                 impacts,
                 response: tangent.matrix.m12 * sizes[1] / sizes[0],
                 is_cut: around.is_cut,
@@ -284,11 +285,11 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
         Ok(orbit.with_test(value))
     }
 
-    fn slopes_along(&self, here: &Evaluation<SectionPoint>) -> Option<DMatrix<f64>> {
+    fn variational_columns(&self, here: &Evaluation<ImpactSectionOrbit>) -> Option<DMatrix<f64>> {
         if self.condition != SectionCondition::Touch {
             return None;
         }
-        let SectionPoint { place, motion, .. } = &here.point;
+        let ImpactSectionOrbit { place, motion, .. } = &here.point;
         let scene_at = |place: &DVector<f64>| {
             let parameters = self.parameters(place);
             Some(self.scene_at(place[0], parameters).ok()?.0)
