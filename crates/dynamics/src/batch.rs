@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use softstop::Start;
 use softstop::internals::budget;
-use softstop_lanes::{BatchObserver, Job, Machine, Outcome};
+use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome};
 
 /// Follows a batch of motions (machine number, state, drive periods) in the lanes; none if the monitor stopped it.
 pub(crate) fn follow_batch<W: BatchObserver>(
-    machines: &[Machine],
+    machines: &[LoweredMachine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,
     watch: &mut W,
     ask: impl FnMut() -> ControlFlow<()>,

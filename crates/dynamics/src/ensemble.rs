@@ -12,7 +12,7 @@ use crate::orbit::OrbitError;
 use crate::parallel;
 use softstop::internals::budget;
 use softstop::{Instant, MotionError, Start};
-use softstop_lanes::{BatchObserver, Machine};
+use softstop_lanes::{BatchObserver, LoweredMachine};
 
 /// Members of an ensemble that one thread advances at a time: several times as many as there are lanes.
 const MEMBERS_AT_ONCE: usize = 64;
@@ -22,7 +22,7 @@ const PERIODS_BETWEEN_QUESTIONS: (u64, u64) = (1 << 16, 256);
 
 /// The machines of many motions that are advanced together, their monitor, and how much work has been done.
 pub struct Ensemble<'a> {
-    pub(crate) machines: Cow<'a, [Machine]>,
+    pub(crate) machines: Cow<'a, [LoweredMachine]>,
     monitor: Monitor<'a>,
     done: AtomicU64,
     /// Work that will be done at most, in drive periods unless its owner counts otherwise.
@@ -31,7 +31,7 @@ pub struct Ensemble<'a> {
 
 impl<'a> Ensemble<'a> {
     /// An ensemble of motions of these machines.
-    pub fn new(machines: impl Into<Cow<'a, [Machine]>>, monitor: Monitor<'a>) -> Self {
+    pub fn new(machines: impl Into<Cow<'a, [LoweredMachine]>>, monitor: Monitor<'a>) -> Self {
         Self {
             machines: machines.into(),
             monitor,

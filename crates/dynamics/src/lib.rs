@@ -57,7 +57,7 @@ pub use derivatives::OrbitDerivatives;
 pub use direction::Direction;
 pub use motion::MotionKind;
 pub use orbit::{LyapunovExponents, Orbit, Regime, StroboscopicMap};
-pub use sweep::{Chain, Plan, Step};
+pub use sweep::{Chain, Plan, SweepStep};
 pub use zone::Zone;
 
 /// What sibling crates share beyond this page, without any promise.
@@ -68,7 +68,7 @@ pub mod internals {
     pub use crate::cycle_metrics::peak_contact_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
-    pub use crate::zone::Frequencies;
+    pub use crate::zone::FrequencyFamily;
     pub use crate::zone::followed_end::{LONGEST_BRANCH, find_end};
 }
 

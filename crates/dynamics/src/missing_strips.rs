@@ -12,7 +12,7 @@ use crate::parallel;
 use crate::strokes::InterruptedMotion;
 pub use crate::strokes::StrokeCount;
 use softstop::{CheckedScene, MotionError, Piercing, Scene};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// Position of the stop while there is no strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -99,7 +99,7 @@ pub fn survives_missing_strips(
         for (machine, turned) in angles.iter().enumerate() {
             let run = run_through_gap(orbit, &without, *turned, missing)?;
             let angle = (orbit.scene.excitation.reduced_phase() + turned).rem_euclid(TAU);
-            machines.push(Machine::new(&orbit.scene.clone().at_phase(angle)?));
+            machines.push(LoweredMachine::new(&orbit.scene.clone().at_phase(angle)?));
             motions.push(TestedMotion {
                 member: Member::new(machine, run.motion.state()),
                 angle,

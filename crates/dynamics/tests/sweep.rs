@@ -8,7 +8,7 @@ use rayon::ThreadPoolBuilder;
 use softstop::{Below, Parameter, Ratios, Release, Start, Stop};
 use softstop_dynamics::monitor::{Memory, unmonitored};
 use softstop_dynamics::sweep::{PlanError, find_coexistences};
-use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, SweepStep, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
 use softstop_testing::{assert_near, is_near, kelvin_voigt, rigid_stop, unloaded};
 
@@ -45,7 +45,7 @@ fn frequencies(range: (f64, f64), steps: usize, periods: u64) -> Plan {
 
 /// Value of the first step with fewer impacts than one per drive period, after at least one with one.
 fn lost(chain: &Chain) -> f64 {
-    let strikes = |step: &&Step| step.impacts_per_period == 1.0;
+    let strikes = |step: &&SweepStep| step.impacts_per_period == 1.0;
     let first = chain
         .steps
         .iter()
@@ -147,7 +147,7 @@ fn chaos_is_told_from_rest_and_order() {
     // Between grazing at 0.95265 and the first windows of order.
     let plan = frequencies((0.96, 0.975), 4, 200);
     let chains = run(&plan, both(Ratios::unloaded()));
-    let chaotic = |step: &Step| {
+    let chaotic = |step: &SweepStep| {
         let grows = step.growth.is_some_and(|growth| growth > 0.05);
         step.motion == MotionKind::Chaos && grows && step.velocities.len() > 10
     };

@@ -14,7 +14,7 @@ use softstop::{Piercing, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{Loss, StableRange, stable_ranges};
 use softstop_dynamics::{BranchPoint, Orbit};
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Job, LoweredMachine};
 use softstop_testing::random::{self, log_uniform};
 
 /// Machines of the test that runs every day, and after how many progress is shown.
@@ -154,7 +154,7 @@ fn settled(scene: &Scene, starts: &[(f64, f64)]) -> (Vec<BranchPoint>, usize) {
     };
     let jobs: Vec<Job> = starts.iter().map(job).collect();
     let mut ends = Ends(vec![[Start::REST; 2]; jobs.len()]);
-    let machine = Machine::new(&scene.check().expect("valid"));
+    let machine = LoweredMachine::new(&scene.check().expect("valid"));
     softstop_lanes::run(&[machine], &jobs, &mut ends);
     let apart =
         |a: Start, b: Start| (a.position - b.position).hypot(a.velocity - b.velocity) / size;

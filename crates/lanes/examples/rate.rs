@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use softstop::{CheckedScene, Ratios, Start};
-use softstop_lanes::{Instructions, Job, Machine, run_parallel};
+use softstop_lanes::{Instructions, Job, LoweredMachine, run_parallel};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let numbers = std::env::args().skip(1).map(|word| word.parse());
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scenes: Vec<CheckedScene> = (0..motions).map(scene).collect::<Result<_, _>>()?;
     for repeat in 0..=repeats {
         let begin = Instant::now();
-        let machines: Vec<Machine> = scenes.par_iter().map(Machine::new).collect();
+        let machines: Vec<LoweredMachine> = scenes.par_iter().map(LoweredMachine::new).collect();
         let job = |machine| Job {
             machine,
             start: Start::new(0.0, 14.0),

@@ -3,7 +3,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::engine::Engine;
-use super::machine::Machine;
+use super::machine::LoweredMachine;
 use super::machine::{Instructions, Job, Outcome, Task};
 use super::observer::{BatchObserver, ObserverHandle};
 
@@ -12,7 +12,7 @@ pub(super) const REGISTERS_PER_BATCH: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run_jobs<'a>(
-    machines: &'a [Machine],
+    machines: &'a [LoweredMachine],
     jobs: &'a [Job],
     watch: ObserverHandle<'a>,
     instructions: Instructions,
@@ -68,7 +68,7 @@ fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Outp
 /// Follows jobs one after another, in a single register where registers are wide. It is generic so that the engine
 /// for one register is compiled where it is called.
 pub(super) fn run_one_by_one<W: BatchObserver>(
-    machines: &[Machine],
+    machines: &[LoweredMachine],
     jobs: &[Job],
     watch: &mut W,
 ) -> Vec<Outcome> {

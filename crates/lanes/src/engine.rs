@@ -28,7 +28,7 @@ use pulp::Simd;
 use super::contact_series::ContactSeries;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::machine::Machine;
+use super::machine::LoweredMachine;
 use super::machine::{Job, Outcome, Task};
 use super::phase_order::PhaseGraph;
 use super::phase_order::phase_order;
@@ -267,7 +267,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     }
 
     /// The machine of a lane's job.
-    pub fn machine_of(&self, lane: usize) -> Option<&'a Machine> {
+    pub fn machine_of(&self, lane: usize) -> Option<&'a LoweredMachine> {
         self.installed[lane].map(|index| &self.task.machines[index])
     }
 

@@ -95,7 +95,7 @@ mod skip_calm;
 mod state;
 mod window_ahead;
 
-pub use machine::{Instructions, Job, Machine, Outcome};
+pub use machine::{Instructions, Job, LoweredMachine, Outcome};
 pub use observer::BatchObserver;
 pub use registers::Registers;
 pub use run::{run, run_one_by_one, run_parallel, run_with};

@@ -8,7 +8,7 @@ use softstop::{CheckedScene, MotionError, Start};
 
 /// A machine, lowered once for any number of motions.
 #[derive(Debug, Clone)]
-pub struct Machine {
+pub struct LoweredMachine {
     scene: CheckedScene,
     pub(super) laws: Option<Vec<Constants>>,
     pub(super) outline: Option<PhaseGraph>,
@@ -16,7 +16,7 @@ pub struct Machine {
     pub(super) angle: (f64, f64),
 }
 
-impl Machine {
+impl LoweredMachine {
     /// Lowers a scene to the laws of the lanes.
     pub fn new(scene: &CheckedScene) -> Self {
         let (phases, drive) = (scene.phases(), scene.excitation);
@@ -99,7 +99,7 @@ pub enum Instructions {
 
 /// Jobs, the machines that they name, and who watches them.
 pub(super) struct Task<'a> {
-    pub machines: &'a [Machine],
+    pub machines: &'a [LoweredMachine],
     pub jobs: &'a [Job],
     pub watch: ObserverHandle<'a>,
     /// Most lanes to use.

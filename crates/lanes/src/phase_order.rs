@@ -104,14 +104,15 @@ impl PhaseGraph {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Machine;
+    use crate::LoweredMachine;
     use softstop::Ratios;
 
     /// Through the strip, to the stop, and back.
     #[test]
     fn the_order_is_that_of_a_stroke() {
         let order = |ratios: Ratios| {
-            let machine = Machine::new(&ratios.scene().expect("valid").check().expect("valid"));
+            let machine =
+                LoweredMachine::new(&ratios.scene().expect("valid").check().expect("valid"));
             let outline = machine.outline.expect("for lanes");
             phase_order(&[outline], outline.count)
         };

@@ -5,7 +5,7 @@ use std::ops::{ControlFlow, Range};
 use rayon::prelude::*;
 
 use super::dispatch;
-use super::machine::Machine;
+use super::machine::LoweredMachine;
 use super::machine::{Instructions, Job, Outcome};
 use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
@@ -18,14 +18,18 @@ const JOBS_PER_BATCH: usize = 128;
 ///
 /// # Panics
 /// If a job names a machine that is not there.
-pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl BatchObserver) -> Vec<Outcome> {
+pub fn run(
+    machines: &[LoweredMachine],
+    jobs: &[Job],
+    watch: &mut impl BatchObserver,
+) -> Vec<Outcome> {
     run_with(Instructions::Widest, machines, jobs, watch)
 }
 
 /// Runs a batch on this thread with the instruction set chosen.
 pub fn run_with(
     instructions: Instructions,
-    machines: &[Machine],
+    machines: &[LoweredMachine],
     jobs: &[Job],
     watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
@@ -38,7 +42,7 @@ pub fn run_with(
 /// # Panics
 /// If a job names a machine that is not there.
 pub fn run_one_by_one(
-    machines: &[Machine],
+    machines: &[LoweredMachine],
     jobs: &[Job],
     watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
@@ -53,7 +57,7 @@ pub fn run_one_by_one(
 /// If a job names a machine that is not there.
 pub fn run_parallel<W: BatchObserver + Send>(
     instructions: Instructions,
-    machines: &[Machine],
+    machines: &[LoweredMachine],
     jobs: &[Job],
     watch: impl Fn(Range<usize>) -> W + Sync,
 ) -> (Vec<Outcome>, Vec<W>) {

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::machine::Machine;
+use super::machine::LoweredMachine;
 use super::machine::Outcome;
 use super::observer::ObserverHandle;
 use softstop::internals::{Mode, Motion};
@@ -33,7 +33,10 @@ pub(super) struct Resumed {
 ///
 /// # Errors
 /// [`MotionError`] if it cannot start there.
-pub(super) fn start_phase(machine: &Machine, start: Start) -> Result<Option<usize>, MotionError> {
+pub(super) fn start_phase(
+    machine: &LoweredMachine,
+    start: Start,
+) -> Result<Option<usize>, MotionError> {
     start.validate()?;
     if machine.is_free_at(start.position) {
         return Ok(Some(0));
@@ -44,7 +47,7 @@ pub(super) fn start_phase(machine: &Machine, start: Start) -> Result<Option<usiz
 }
 
 /// The phase in which a motion moves, if lanes can follow it there.
-fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
+fn lane_phase(machine: &LoweredMachine, motion: &Motion) -> Option<usize> {
     match motion.mode() {
         Mode::Moving(phase) if machine.is_for_lanes() => Some(phase.index()),
         _ => None,
@@ -54,7 +57,7 @@ fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
 /// Follows a motion with the safe engine to the next beginning of a drive period at which it moves in a phase that
 /// lanes can follow; none if that is not before its end after `periods`.
 pub(super) fn follow_safely(
-    machine: &Machine,
+    machine: &LoweredMachine,
     place: SafeStart,
     periods: u64,
     watch: &mut ObserverHandle<'_>,

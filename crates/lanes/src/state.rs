@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
-use super::machine::Machine;
+use super::machine::LoweredMachine;
 use super::machine::Outcome;
 use super::returns::Return;
 use super::sine_cosine::cos_sin;
@@ -78,7 +78,7 @@ impl<S: Simd, const N: usize> State<S, N> {
 
     /// Gives a lane the drive of a machine.
     #[inline(always)]
-    pub fn set_drive(&mut self, lane: usize, machine: &Machine) {
+    pub fn set_drive(&mut self, lane: usize, machine: &LoweredMachine) {
         let drive = &mut self.drive;
         let (frequency, period) = (
             machine.scene().excitation.frequency,

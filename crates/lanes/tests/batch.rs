@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use softstop::{Clock, Crossing, Observer, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_lanes::{
-    BatchObserver, Instructions, Job, Machine, Outcome, run, run_one_by_one, run_with,
+    BatchObserver, Instructions, Job, LoweredMachine, Outcome, run, run_one_by_one, run_with,
 };
 use softstop_testing::{Meets, assert_near, kelvin_voigt, preloaded, rigid_stop};
 
@@ -108,7 +108,7 @@ fn largest_growth(scene: &Scene, from: Start, end: Start) -> f64 {
 }
 
 struct Batch {
-    machines: Vec<Machine>,
+    machines: Vec<LoweredMachine>,
     jobs: Vec<Job>,
     scenes: Vec<Scene>,
 }
@@ -134,7 +134,7 @@ fn batch(count: usize) -> Batch {
 fn batch_of(scenes: Vec<Scene>) -> Batch {
     let machines = scenes
         .iter()
-        .map(|scene| Machine::new(&scene.check().expect("valid")));
+        .map(|scene| LoweredMachine::new(&scene.check().expect("valid")));
     let jobs = scenes.iter().enumerate().map(|(machine, scene)| Job {
         machine,
         start: start(machine, scene),
@@ -281,7 +281,7 @@ fn compare_told(scene: &Scene, starts: Vec<Start>) {
             self.periods.entry(job).or_default().push((cycle, state));
         }
     }
-    let machines = [Machine::new(&scene.check().expect("valid"))];
+    let machines = [LoweredMachine::new(&scene.check().expect("valid"))];
     let job = |start| Job {
         machine: 0,
         start,

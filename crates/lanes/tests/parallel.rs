@@ -4,21 +4,23 @@ use std::ops::ControlFlow;
 
 use rayon::ThreadPoolBuilder;
 use softstop::{Ratios, Scene, Start};
-use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run, run_parallel};
+use softstop_lanes::{
+    BatchObserver, Instructions, Job, LoweredMachine, Outcome, run, run_parallel,
+};
 use softstop_testing::tolerance::SOLVED;
 use softstop_testing::{assert_near, hertz};
 
 const JOBS: usize = 600;
 const PERIODS: u64 = 12;
 
-fn fleet() -> (Vec<Machine>, Vec<Job>) {
+fn fleet() -> (Vec<LoweredMachine>, Vec<Job>) {
     let machine = |number: usize| {
         let frequency = 0.95 + 0.05 * number as f64;
         let ratios = Ratios {
             frequency,
             ..Ratios::unloaded()
         };
-        Machine::new(&ratios.scene().expect("valid").check().expect("valid"))
+        LoweredMachine::new(&ratios.scene().expect("valid").check().expect("valid"))
     };
     let job = |number: usize| Job {
         machine: number % 9,
@@ -73,7 +75,7 @@ fn a_batch_ends_where_its_watcher_says_so() {
         stop: hertz(30.0, 1.2, 0.0),
         ..Ratios::unloaded().scene().expect("valid")
     };
-    let slow = Machine::new(&rough.check().expect("valid"));
+    let slow = LoweredMachine::new(&rough.check().expect("valid"));
     assert!(linear.is_for_lanes() && !slow.is_for_lanes());
     for machine in [linear, slow] {
         machines.fill(machine);

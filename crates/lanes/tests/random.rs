@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use rounding::{ROUNDING, Reference, faces, follow};
 use serde_json::json;
 use softstop::{Ratios, Scene, Start, Stop};
-use softstop_lanes::{Instructions, Job, Machine, Outcome, run_with};
+use softstop_lanes::{Instructions, Job, LoweredMachine, Outcome, run_with};
 
 /// Motions that are drawn and run together.
 const PART: u64 = 256;
@@ -86,8 +86,8 @@ fn compare(
 }
 
 fn compare_part(motions: &[Motion], periods: u64) -> Vec<Compared> {
-    let machine = |(scene, _): &Motion| Machine::new(&scene.check().expect("valid"));
-    let machines: Vec<Machine> = motions.iter().map(machine).collect();
+    let machine = |(scene, _): &Motion| LoweredMachine::new(&scene.check().expect("valid"));
+    let machines: Vec<LoweredMachine> = motions.iter().map(machine).collect();
     let outcomes = in_lanes(&machines, motions, |_| periods);
     let before_skip = |index: usize| match outcomes[index].leapt {
         0 => 0,
@@ -125,7 +125,7 @@ fn compare_part(motions: &[Motion], periods: u64) -> Vec<Compared> {
 
 /// The motions in lanes, each over its own number of drive periods.
 fn in_lanes(
-    machines: &[Machine],
+    machines: &[LoweredMachine],
     motions: &[Motion],
     periods: impl Fn(usize) -> u64,
 ) -> Vec<Outcome> {

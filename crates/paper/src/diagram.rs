@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use softstop::{Parameter, Scene};
 use softstop_dynamics::monitor::OptionalMemory;
-use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Regime, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Regime, SweepStep};
 
 use crate::figure::Detail;
 use softstop_console::column::{Unit, column};
@@ -81,19 +81,19 @@ pub(super) fn part_of(sweep: &Chain, plan: &Plan) -> Job {
 }
 
 /// The steps of some sweeps.
-pub(super) fn steps(chains: &[Chain]) -> impl Iterator<Item = &Step> + Clone {
+pub(super) fn steps(chains: &[Chain]) -> impl Iterator<Item = &SweepStep> + Clone {
     chains.iter().flat_map(|chain| &chain.steps)
 }
 
 /// True if both steps show the same motion, or both one that does not repeat.
-pub(super) fn same(a: &Step, b: &Step) -> bool {
+pub(super) fn same(a: &SweepStep, b: &SweepStep) -> bool {
     let (regime, one, other) = (a.motion.regime(), a.hardest_impact(), b.hardest_impact());
     regime == b.motion.regime()
         && (regime.is_none() || (one - other).abs() <= APART * one.max(other))
 }
 
 /// The motion of a step with the order of its impacts as Newton's method has it, where that tells its name or colour.
-pub(super) fn motion(scene: &Scene, step: &Step) -> MotionKind {
+pub(super) fn motion(scene: &Scene, step: &SweepStep) -> MotionKind {
     let seen = || step.motion.clone();
     match step.motion.regime() {
         Some(regime) if regime.periods >= 4 && 2 * regime.impacts == regime.periods => {
@@ -107,14 +107,14 @@ pub(super) fn motion(scene: &Scene, step: &Step) -> MotionKind {
 }
 
 /// The before-impact velocities over the parameter; 0 for a motion without impacts.
-pub(super) fn dots(step: &Step) -> Vec<(f64, f64)> {
+pub(super) fn dots(step: &SweepStep) -> Vec<(f64, f64)> {
     let rest = step.velocities.is_empty().then_some(0.0);
     let velocities = step.velocities.iter().copied().chain(rest);
     velocities.map(|velocity| (step.value, velocity)).collect()
 }
 
 /// True if the motion is z = 1.
-pub(super) fn is_one(step: &Step) -> bool {
+pub(super) fn is_one(step: &SweepStep) -> bool {
     step.motion.regime() == Some(Regime::ONE)
 }
 
@@ -123,13 +123,13 @@ struct StepRow<'a> {
     /// The sweep's name.
     sweep: String,
     direction: &'a str,
-    step: &'a Step,
+    step: &'a SweepStep,
 }
 
 /// A row for each step of some sweeps, of which the first column tells this.
 pub(super) fn table<'a>(
     name: &'static str,
-    sweeps: impl IntoIterator<Item = (String, &'a str, &'a [Step])>,
+    sweeps: impl IntoIterator<Item = (String, &'a str, &'a [SweepStep])>,
 ) -> Result<Vec<u8>> {
     let mut columns = columns! { StepRow<'a>, it;
         "sweep" [None], "which one" => it.sweep.clone();
@@ -154,7 +154,7 @@ pub(super) fn table<'a>(
     Ok(csv(&columns, rows)?)
 }
 
-fn velocities(step: &Step) -> String {
+fn velocities(step: &SweepStep) -> String {
     let velocities = step.velocities.iter().map(|it| format!("{it:.6}"));
     velocities.collect::<Vec<String>>().join(" ")
 }
@@ -170,7 +170,7 @@ pub(super) const WAYS: [(&str, &str); 3] = [
 pub(super) fn by_way<'a, T>(
     up: &'a [T],
     down: &'a [T],
-    step: impl Fn(&T) -> &Step,
+    step: impl Fn(&T) -> &SweepStep,
 ) -> [Vec<&'a T>; 3] {
     let mut ways = [const { Vec::new() }; 3];
     for pair in up.iter().zip(down) {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use softstop::{MotionError, Ratios, Scene};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
-use softstop_dynamics::{Chain, LyapunovExponents, Orbit, Step};
+use softstop_dynamics::{Chain, LyapunovExponents, Orbit, SweepStep};
 
 use crate::diagram::{self, Part, WAYS, by_way, dots};
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -19,7 +19,7 @@ const DOT: f64 = 0.7;
 
 /// A step of a sweep, its largest exponent per unit of tau, and the half-width of the 95 % interval of that.
 struct ExponentStep {
-    step: Step,
+    step: SweepStep,
     exponent: (f64, f64),
 }
 
@@ -108,7 +108,7 @@ fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<Exponent
     points.collect()
 }
 
-fn exponent(scene: &Scene, step: &Step, batch: u64) -> Result<(f64, f64), MotionError> {
+fn exponent(scene: &Scene, step: &SweepStep, batch: u64) -> Result<(f64, f64), MotionError> {
     let scene = scene.at_frequency(step.value);
     if let Some(periods) = step.motion.periods()
         && let Ok(orbit) = Orbit::find_periodic(&scene, step.end.into(), periods)
@@ -151,7 +151,7 @@ fn chart(
         panel.layers = layers(ways, row);
         if row == 0 {
             let steps = ways.iter().flatten().map(|point| &point.step);
-            let top = steps.map(Step::hardest_impact).fold(1.0, f64::max);
+            let top = steps.map(SweepStep::hardest_impact).fold(1.0, f64::max);
             panel.y.ends = [-0.04 * top, 1.08 * top].map(Some);
         } else {
             let zero = Layer::horizontal(0.0, Stroke::solid(style::INK, 1.0), "");

@@ -8,7 +8,7 @@ use softstop_console::machine::PaperMachine;
 use softstop_draw::{Align, Chart, Layer, Mark, Sign, Stroke, style};
 use softstop_dynamics::sweep::Jump;
 use softstop_dynamics::zone::free_amplitude;
-use softstop_dynamics::{Chain, MotionKind, Plan, Step, orbit};
+use softstop_dynamics::{Chain, MotionKind, Plan, SweepStep, orbit};
 
 use crate::boundaries::{self, Ends, Figures};
 use crate::diagram::{self, is_one};
@@ -76,7 +76,7 @@ fn findings_of(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> 
             "eta_PD" => end.flip.map(|it| it[0]);
             "X_m at the fold" => end.fold.map(|it| it[1]);
             "velocity at the fold" => end.fold.map(|it| it[2]);
-            "hardest impact of z = 1" => hardest.map(Step::hardest_impact);
+            "hardest impact of z = 1" => hardest.map(SweepStep::hardest_impact);
             "eta of the hardest impact" => hardest.map(|it| it.value);
             "largest X_m of any motion" => farthest.max_by(f64::total_cmp);
             "largest X_m of z = 1" => highest.map(|it| it.max_position);
@@ -165,7 +165,7 @@ fn rows(chains: &[Chain]) -> impl Iterator<Item = (&[Chain], &'static str)> {
 
 /// Dots of all motions, and lines where z = 1 is stable.
 fn diagram(ways: &[Chain], color: &'static str, which: Which) -> Vec<Layer> {
-    let show = |step: &Step| -> Vec<(f64, f64)> {
+    let show = |step: &SweepStep| -> Vec<(f64, f64)> {
         let heights = match which {
             1 if step.hardest_impact() == 0.0 => &[],
             1 => std::slice::from_ref(&step.max_position),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use softstop::{Ratios, Start};
 use softstop_dynamics::internals::{Ensemble, Member};
 use softstop_dynamics::monitor::recall_or_compute;
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use crate::table1::{matching, paper};
@@ -97,7 +97,7 @@ fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<LaminarLengths>> {
             regime.periods,
             |it| it.lengths.len() > STRETCHES.0,
         )?);
-        machines.push(Machine::new(&beside.scene()?.check()?));
+        machines.push(LoweredMachine::new(&beside.scene()?.check()?));
         places.push((*row, eta, *distance));
     }
     let ensemble = Ensemble::new(machines, &interrupt::watch);

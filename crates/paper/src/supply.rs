@@ -18,7 +18,7 @@ use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::missing_strips::{StopWithoutStrip, StrokeCount};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Job, LoweredMachine};
 
 use crate::figure::{Drawn, Figure, Findings, Studio, evenly_spread, findings};
 use softstop_console::output::csv;
@@ -51,7 +51,7 @@ struct Outcome {
 
 /// One machine without and with strips, and the z = 1 motion from which it starts.
 struct Press {
-    machines: [Machine; 2],
+    machines: [LoweredMachine; 2],
     orbit: Orbit,
     /// Whether it starts and ends with strips.
     is_supplied: bool,
@@ -125,7 +125,7 @@ impl Press {
         let scene = Ratios::loaded().at_frequency(frequency).scene()?;
         let scenes = [reading.scene_without_strip(&scene).check()?, scene.check()?];
         Ok(Self {
-            machines: scenes.each_ref().map(Machine::new),
+            machines: scenes.each_ref().map(LoweredMachine::new),
             orbit: find(&scenes[usize::from(is_supplied)])?,
             is_supplied,
         })

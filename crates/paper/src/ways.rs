@@ -4,7 +4,7 @@
 
 use anyhow::Result;
 use softstop::{Parameter, Ratios};
-use softstop_dynamics::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, Plan, SweepStep};
 
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio, evenly_spread};
@@ -45,7 +45,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         let chains = etas.iter().map(chain).collect::<Result<_>>()?;
         let chains = diagram::sweep(vec![(plan, chains)], "steps of the ways", studio.kept)?;
         for (name, order) in SOUGHT {
-            let shows = |step: &Step| {
+            let shows = |step: &SweepStep| {
                 let own = step.motion.order();
                 own.is_some_and(|it| it.to_string() == order)
             };

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use softstop::Start;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
-use softstop_lanes::{BatchObserver, Instructions, Job, Machine as Lowered, Outcome, run_parallel};
+use softstop_lanes::{BatchObserver, Instructions, Job, LoweredMachine, Outcome, run_parallel};
 
 use crate::errors::of_scene;
 use crate::machine::Machine;
@@ -129,7 +129,7 @@ pub fn follow<'py>(
 }
 
 /// What jobs come to; motions that settle are leapt over.
-pub fn ends(machines: &[Lowered], jobs: &[Job]) -> Vec<Outcome> {
+pub fn ends(machines: &[LoweredMachine], jobs: &[Job]) -> Vec<Outcome> {
     let progress = Progress::new(jobs.len() as u64, "motions");
     let watch = |part: Range<usize>| {
         progress.more(part.len() as u64);
@@ -139,7 +139,7 @@ pub fn ends(machines: &[Lowered], jobs: &[Job]) -> Vec<Outcome> {
 }
 
 /// What jobs come to, and their impacts from a drive period on, job after job.
-fn impacts(machines: &[Lowered], jobs: &[Job], from: u64) -> (Vec<Outcome>, Vec<Impact>) {
+fn impacts(machines: &[LoweredMachine], jobs: &[Job], from: u64) -> (Vec<Outcome>, Vec<Impact>) {
     let progress = Progress::new(jobs.len() as u64, "motions");
     let watch = |part: Range<usize>| {
         progress.more(part.len() as u64);

@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use softstop::{Machine as Stated, Parameter, Scene, SceneError, Start};
-use softstop_lanes::{Job, Machine as Lowered};
+use softstop_lanes::{Job, LoweredMachine};
 
 use crate::errors::{MachineError, of_machine};
 use crate::machine::Machine;
@@ -80,12 +80,12 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// [`SceneError`] of one that cannot be, in its own units.
-    pub fn lowered(&self) -> Result<Vec<Lowered>, SceneError> {
+    pub fn lowered(&self) -> Result<Vec<LoweredMachine>, SceneError> {
         let machines = match self.columns.is_empty() {
             true => self.len().min(1),
             false => self.len(),
         };
-        let lowered = |row| Ok(Lowered::new(&self.machine(row).check(None)?));
+        let lowered = |row| Ok(LoweredMachine::new(&self.machine(row).check(None)?));
         (0..machines).into_par_iter().map(lowered).collect()
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use softstop::{CheckedScene, MotionError};
 use softstop_dynamics::continuation::{BranchPoint, Continuation, Direction, Family};
-use softstop_dynamics::internals::{Frequencies, LONGEST_BRANCH, find_end};
+use softstop_dynamics::internals::{FrequencyFamily, LONGEST_BRANCH, find_end};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::zone::Loss;
@@ -38,7 +38,7 @@ pub fn along(
     let family = Homotopy {
         spread,
         to,
-        state_scales: Frequencies(&nominal.scene).state_scales(),
+        state_scales: FrequencyFamily(&nominal.scene).state_scales(),
     };
     let continuation = Continuation::new(&family, 1);
     let mut points =

@@ -1,6 +1,6 @@
 //! The catalogue of known stable orbits of a scene, and how motions are told to have arrived at them.
 
-use super::Certainty;
+use super::OrbitResiduals;
 use crate::ensemble::MemberStatus;
 use crate::orbit::recurrence::{find_recurrence, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
@@ -127,7 +127,7 @@ impl AttractorCatalogue {
             size: motion_size(self.drive_frequency(), &states),
             states,
             orbit,
-            certainty: Certainty {
+            certainty: OrbitResiduals {
                 returned,
                 residual,
                 rounding,
@@ -141,7 +141,7 @@ impl AttractorCatalogue {
 #[derive(Debug, Clone)]
 pub(crate) struct KnownOrbit {
     pub orbit: Orbit,
-    pub certainty: Certainty,
+    pub certainty: OrbitResiduals,
     /// Its states at drive angle phi, after each drive period.
     pub states: Vec<Start>,
     /// The size of the motion in m/s.

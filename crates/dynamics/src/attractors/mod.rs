@@ -27,7 +27,7 @@ use softstop::{MotionError, Start};
 /// How certain a periodic motion is: residuals of its simulation and of its polished orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Certainty {
+pub struct OrbitResiduals {
     /// Largest distance of simulated states a period apart, in units of the motion's size, when it was first met.
     pub returned: f64,
     /// |P(s) - s| of the polished orbit in the scene's scales.
@@ -47,7 +47,7 @@ pub struct Attractor {
     /// The orbit, if it repeats: polished by Newton's method; stable.
     pub orbit: Option<Box<Orbit>>,
     /// How certain the orbit is.
-    pub certainty: Option<Certainty>,
+    pub certainty: Option<OrbitResiduals>,
     /// Least and largest position in m at which motions were seen to end, if it rests.
     pub positions: Option<[f64; 2]>,
     /// What chaos is like, if the motion is chaotic and was watched.

@@ -15,7 +15,7 @@ use crate::tolerance::{SAME, STABLE_REACH};
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::{Instant, MotionError, Scene, Start};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// Motions of a basin test that go together, enough for all lanes, whatever the number of threads.
 const MOTIONS_TOGETHER: usize = 512;
@@ -34,7 +34,7 @@ const BORDER_PERIODS: u64 = 512;
 
 /// A test of which motions come to a stable orbit, by balls about its points in which its map contracts.
 pub struct BasinTest {
-    machine: Machine,
+    machine: LoweredMachine,
     states: Vec<Start>,
     /// Contraction balls of the orbit, and of the motion without impacts if it is another one: what lies there is lost.
     balls: ContractionBalls,
@@ -107,7 +107,7 @@ impl BasinTest {
             balls.add_orbit(IMPACTLESS_ORBIT, &other)?;
         }
         Ok(Self {
-            machine: Machine::new(scene),
+            machine: LoweredMachine::new(scene),
             states,
             balls,
             patience,
@@ -181,7 +181,7 @@ impl BasinTest {
     /// counting their strokes. The machines differ from the orbit's in the drive angle alone with which they start.
     pub(crate) fn follow_motions<const COUNTS: bool>(
         &self,
-        machines: &[Machine],
+        machines: &[LoweredMachine],
         mut motions: Vec<TestedMotion>,
         is_decided: &(dyn Fn(bool) -> bool + Sync),
         monitor: Monitor<'_>,

@@ -11,7 +11,7 @@ use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
 use crate::orbit::OrbitError;
 use crate::parallel;
 use softstop::{CheckedScene, MotionError, Scene, Start};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// Cells of a tile, which go together: enough for all lanes, whatever the number of threads.
 pub(super) const TILE_CELLS: usize = 4096;
@@ -70,7 +70,7 @@ pub fn find_basins(
     kept: OptionalMemory<'_>,
 ) -> Result<Basins, OrbitError> {
     let scene = scene.check()?;
-    let mut ensemble = Ensemble::new(vec![Machine::new(&scene)], monitor);
+    let mut ensemble = Ensemble::new(vec![LoweredMachine::new(&scene)], monitor);
     ensemble.planned = grid.cell_count() as u64;
     let mut survey = BasinSurvey {
         grid,

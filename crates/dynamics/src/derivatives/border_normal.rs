@@ -15,7 +15,7 @@ use crate::continuation::{
     end_derivatives_by, find_grazing,
 };
 use crate::orbit::OrbitError;
-use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
+use crate::zone::{FrequencyFamily, Loss, ZoneEnd, ZoneError, grazing_frequencies};
 
 /// What a border of a motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,7 +130,7 @@ impl Border {
             _ => return Self::at_g0(scene, true, parameters),
         };
         let scene = &scene.check()?;
-        let family = Frequencies(scene);
+        let family = FrequencyFamily(scene);
         let guess = BranchPoint {
             parameter: self.predicted_frequency(scene),
             ..near.clone()

@@ -8,7 +8,7 @@ use super::trial_motions::TrialMotions;
 use super::{Orbit, OrbitError};
 use crate::monitor::{Monitor, unmonitored};
 use softstop::Scene;
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// Stages of the search: drive periods after which Newton's method takes over from where motions have moved least, and
 /// those after which it then takes over from all: few for small basins, and far more if none is found.
@@ -76,7 +76,7 @@ fn search_hardest_of_scenes(
     for (index, scene) in scenes.iter().enumerate() {
         match scene.check() {
             Ok(scene) => {
-                machines.push(Machine::new(&scene));
+                machines.push(LoweredMachine::new(&scene));
                 searches.push((index, FixedPointSearch::new(&scene)));
             }
             Err(error) => found[index] = Err(error.into()),

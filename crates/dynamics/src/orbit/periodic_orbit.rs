@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{ImpactPattern, MapApplication, Monodromy, Regime, StroboscopicMap, TimedImpact};
 use crate::tolerance::ROUNDING;
-use softstop::{CheckedScene, Instant, MotionError, Scene, ImpactEvent, Trajectory};
+use softstop::{CheckedScene, ImpactEvent, Instant, MotionError, Scene, Trajectory};
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -101,8 +101,9 @@ impl Orbit {
     /// [`Excitation::reduced_phase`](softstop::Excitation::reduced_phase) has it.
     pub fn impact_angles(&self) -> impl Iterator<Item = f64> + '_ {
         let drive = self.scene.excitation;
-        let angle =
-            move |touch: &ImpactEvent| drive.frequency * touch.instant.offset + drive.reduced_phase();
+        let angle = move |touch: &ImpactEvent| {
+            drive.frequency * touch.instant.offset + drive.reduced_phase()
+        };
         self.impacts.iter().map(angle)
     }
 

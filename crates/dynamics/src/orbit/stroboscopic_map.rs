@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::recurrence::{motion_size, state_distance};
 use super::Monodromy;
+use super::recurrence::{motion_size, state_distance};
 use crate::record_trajectory::record_trajectory;
 use crate::tolerance::SAME;
 use softstop::{

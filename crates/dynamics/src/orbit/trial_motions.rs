@@ -8,7 +8,7 @@ use crate::batch::follow_batch;
 use crate::monitor::Monitor;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
-use softstop_lanes::{BatchObserver, Machine};
+use softstop_lanes::{BatchObserver, LoweredMachine};
 
 /// Distances of the starts of trial motions from the origin of (w x, x'), in units of w times the length of the motion.
 const START_SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
@@ -89,7 +89,12 @@ impl TrialMotions {
     }
 
     /// Follows the open trial motions up to a number of drive periods in all.
-    pub(super) fn follow_trials(&mut self, machines: &[Machine], until: u64, monitor: Monitor<'_>) {
+    pub(super) fn follow_trials(
+        &mut self,
+        machines: &[LoweredMachine],
+        until: u64,
+        monitor: Monitor<'_>,
+    ) {
         let mut open: Vec<&mut TrialMotion> = self.all.iter_mut().filter(|it| it.is_open).collect();
         let lasting = until - self.cycle;
         let motions = open.iter();

@@ -26,7 +26,7 @@ use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RECURRENCE_DISTANCE;
 use softstop::{MotionError, Scene, Start};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// How long motions are followed until they have settled, and how they are watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -65,7 +65,7 @@ impl Settling {
             let mut member = Member::new(machines.len(), *start);
             let lowered = start
                 .validate()
-                .and_then(|()| Ok(Machine::new(&scene.check()?)));
+                .and_then(|()| Ok(LoweredMachine::new(&scene.check()?)));
             match lowered {
                 Ok(machine) => machines.push(machine),
                 Err(error) => member.mark_lost(error),
@@ -79,7 +79,7 @@ impl Settling {
     /// Follows motions of these machines until they settle, and returns what each has come to.
     fn settle_members(
         &self,
-        machines: Vec<Machine>,
+        machines: Vec<LoweredMachine>,
         mut members: Vec<Member>,
         monitor: Monitor<'_>,
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
@@ -127,7 +127,7 @@ impl Settling {
         region: Option<Region>,
         monitor: Monitor<'_>,
     ) -> Option<f64> {
-        let machine = vec![Machine::new(&scene.check().ok()?)];
+        let machine = vec![LoweredMachine::new(&scene.check().ok()?)];
         let region = region.unwrap_or_else(|| Region::start_box(scene, []));
         let starts = region.starts(starts, 0).into_iter();
         let members = starts.map(|start| Member::new(0, start)).collect();

@@ -21,7 +21,7 @@ pub struct Chain {
     /// The direction in which the parameter changes.
     pub direction: Direction,
     /// The steps that are complete, in the order in which they were made.
-    pub steps: Vec<Step>,
+    pub steps: Vec<SweepStep>,
     /// Why the sweep cannot go on, in words.
     pub error: Option<String>,
 }
@@ -54,8 +54,8 @@ impl Chain {
     }
 
     /// The steps of the sweep in rising order of the parameter.
-    pub fn rising_steps(&self) -> Vec<&Step> {
-        let mut steps: Vec<&Step> = self.steps.iter().collect();
+    pub fn rising_steps(&self) -> Vec<&SweepStep> {
+        let mut steps: Vec<&SweepStep> = self.steps.iter().collect();
         if self.direction == Direction::Down {
             steps.reverse();
         }
@@ -64,8 +64,8 @@ impl Chain {
 
     /// The jumps of a sweep, in its own order: from a settled step to the next one, however many lie between.
     pub fn find_jumps(&self) -> Vec<Jump> {
-        let settled: Vec<&Step> = self.steps.iter().filter(|step| step.is_settled()).collect();
-        let jump = |pair: &[&Step]| Jump {
+        let settled: Vec<&SweepStep> = self.steps.iter().filter(|step| step.is_settled()).collect();
+        let jump = |pair: &[&SweepStep]| Jump {
             from: pair[0].value,
             to: pair[1].value,
             before: pair[0].motion.clone(),
@@ -79,14 +79,15 @@ impl Chain {
 }
 
 /// True if the sweep jumps after a step: to another kind of motion, or to one hit much harder or less hard.
-fn is_jump(steps: &[&Step], index: usize) -> bool {
+fn is_jump(steps: &[&SweepStep], index: usize) -> bool {
     let (before, after) = (steps[index], steps[index + 1]);
     if before.motion != after.motion {
         return true;
     }
-    let change = |a: &Step, b: &Step| (b.hardest_impact() - a.hardest_impact()).abs();
+    let change = |a: &SweepStep, b: &SweepStep| (b.hardest_impact() - a.hardest_impact()).abs();
     let leap = change(before, after);
-    let is_even = |a: &Step, b: &Step| a.motion != b.motion || change(a, b) < JUMP_SHARES.1 * leap;
+    let is_even =
+        |a: &SweepStep, b: &SweepStep| a.motion != b.motion || change(a, b) < JUMP_SHARES.1 * leap;
     let earlier = index.checked_sub(1).map(|earlier| steps[earlier]);
     before.differs_from(after, JUMP_SHARES.0)
         && earlier.is_none_or(|earlier| is_even(earlier, before))
@@ -98,7 +99,7 @@ fn is_jump(steps: &[&Step], index: usize) -> bool {
 /// One step of a sweep: the motion at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Step {
+pub struct SweepStep {
     /// The parameter's value.
     pub value: f64,
     /// The motion that the step has come to: chaos if small differences have grown more than a hundredfold.
@@ -117,7 +118,7 @@ pub struct Step {
     pub is_put_on_wall: bool,
 }
 
-impl Step {
+impl SweepStep {
     /// The step of a sweep at a value, from what its motion was seen to settle on.
     pub(super) fn new(
         value: f64,
@@ -177,7 +178,7 @@ pub struct Coexistence {
 }
 
 /// The steps of the sweeps up and down at the same values, in rising order.
-fn pair_steps<'a>(up: &'a Chain, down: &'a Chain) -> Vec<(&'a Step, &'a Step)> {
+fn pair_steps<'a>(up: &'a Chain, down: &'a Chain) -> Vec<(&'a SweepStep, &'a SweepStep)> {
     let others = down.rising_steps();
     let other = |value: f64| others.binary_search_by(|step| step.value.total_cmp(&value));
     let ours = up.rising_steps().into_iter();

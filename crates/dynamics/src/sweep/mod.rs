@@ -29,7 +29,7 @@
 mod chain;
 mod run;
 
-pub use chain::{Chain, Coexistence, Jump, Step, find_coexistences};
+pub use chain::{Chain, Coexistence, Jump, SweepStep, find_coexistences};
 
 use thiserror::Error;
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::chain::Step;
+use super::chain::SweepStep;
 use super::{Chain, Plan};
 use crate::ensemble::{Ensemble, Member};
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
@@ -14,12 +14,12 @@ use crate::parallel;
 use crate::settled::SettledMotion;
 use softstop::internals::budget;
 use softstop::{Parameter, Scene, SceneError, Start};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// The steps that a sweep makes in one stored piece of work.
 #[derive(Serialize, Deserialize)]
 struct ChainProgress {
-    steps: Vec<Step>,
+    steps: Vec<SweepStep>,
     error: Option<String>,
 }
 
@@ -158,11 +158,11 @@ impl Plan {
                 Some(error) => Err(error),
                 None => {
                     let seen = SettledMotion::of(scene, &member, self.tolerance, self.periods);
-                    Step::new(value, scene, seen, self.heights)
+                    SweepStep::new(value, scene, seen, self.heights)
                 }
             };
             match made {
-                Ok(step) => chain.steps.push(Step {
+                Ok(step) => chain.steps.push(SweepStep {
                     is_put_on_wall: is_put,
                     ..step
                 }),
@@ -174,11 +174,11 @@ impl Plan {
     }
 
     /// The lowered machine at the next step of a sweep.
-    fn lower_next_step(&self, chain: &Chain) -> Result<Machine, SceneError> {
+    fn lower_next_step(&self, chain: &Chain) -> Result<LoweredMachine, SceneError> {
         let mut machine = chain.machine.clone();
         let value = self.value_at(chain.steps.len(), chain.direction);
         machine.set(self.parameter, value);
-        Ok(Machine::new(&machine.check(None)?))
+        Ok(LoweredMachine::new(&machine.check(None)?))
     }
 }
 

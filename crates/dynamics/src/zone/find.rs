@@ -4,7 +4,7 @@ use super::hysteresis_zone::{UpperEnd, zones_of};
 use super::single_impact_zone::single_impact;
 use super::stable_range::StableRange;
 use super::stable_ranges::find_stable_ranges;
-use super::{Frequencies, ZoneError};
+use super::{FrequencyFamily, ZoneError};
 use super::{Zone, ZoneKind};
 use crate::continuation::Continuation;
 use crate::monitor::{Monitor, unmonitored};
@@ -72,7 +72,7 @@ fn on_stable_range(scene: &Scene, stable_range: &StableRange) -> Option<Orbit> {
     let point = stable_range
         .point_at(&scene, scene.excitation.frequency)
         .ok()??;
-    let family = Frequencies(&scene);
+    let family = FrequencyFamily(&scene);
     let orbit = Continuation::new(&family, 1).orbit_at(&point).ok()?;
     (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
 }

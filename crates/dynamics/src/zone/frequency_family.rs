@@ -7,9 +7,9 @@ use softstop::{CheckedScene, MotionError};
 /// The family of one scene at all frequencies of its drive.
 #[doc(hidden)]
 #[derive(Debug)]
-pub struct Frequencies<'a>(pub &'a CheckedScene);
+pub struct FrequencyFamily<'a>(pub &'a CheckedScene);
 
-impl Family for Frequencies<'_> {
+impl Family for FrequencyFamily<'_> {
     fn scene(&self, [frequency]: [f64; 1]) -> Result<CheckedScene, MotionError> {
         Ok(self.0.recheck(self.0.at_frequency(frequency))?)
     }

@@ -10,7 +10,7 @@ use super::end::{Loss, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
 use super::stable_range::StableRange;
 use super::stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
-use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies, refuse_below};
+use super::{BranchEnd, FrequencyFamily, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, TestFunction};
 use crate::monitor::{Monitor, stop_if, unmonitored};
@@ -128,7 +128,7 @@ fn zone_from_start(
 ) -> Result<Zone, ZoneError> {
     OrbitError::ask_monitor(monitor)?;
     let scene = &scene.check()?;
-    let family = Frequencies(scene);
+    let family = FrequencyFamily(scene);
     let start = start.ok_or(ZoneError::NoOrbit {
         frequency: frequency_g0.into(),
     })?;

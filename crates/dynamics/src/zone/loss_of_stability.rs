@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Frequencies, grazing_frequencies};
+use super::{FrequencyFamily, grazing_frequencies};
 use crate::continuation::{BranchPoint, Continuation, Direction, Family, TestFunction};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
@@ -24,7 +24,7 @@ pub fn loss_of_stability(
     test: TestFunction,
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let from = orbit.scene.excitation.frequency;
-    let family = Frequencies(&orbit.scene);
+    let family = FrequencyFamily(&orbit.scene);
     let continuation = Continuation::new(&family, 1);
     let branch = follow_stable(&continuation, from, orbit, direction)?;
     let found = locate_loss(&continuation, &branch, test)?;
@@ -89,7 +89,7 @@ fn locate_loss(
 /// Frequencies in rad/s that bound z = 1 of a machine: grazing g0, flip s_PD, fold s_SN.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Bounds {
+pub struct StabilityBounds {
     /// g0: above it the motion without impacts does not reach the clearance.
     pub grazing: Option<f64>,
     /// s_PD: the z = 1 motion, followed down from the scene's frequency, doubles its period.
@@ -98,7 +98,7 @@ pub struct Bounds {
     pub fold: Option<f64>,
 }
 
-impl Bounds {
+impl StabilityBounds {
     /// The bounds of a scene; those of its z = 1 motion only with a state near it.
     ///
     /// # Errors

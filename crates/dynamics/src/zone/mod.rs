@@ -18,12 +18,12 @@ mod stable_ranges;
 pub use end::{Loss, ZoneEnd};
 pub use error::{BranchEnd, StatedFrequency, ZoneError};
 pub use find::{find, find_among, find_with_monitor, find_zones};
-pub use frequency_family::Frequencies;
+pub use frequency_family::FrequencyFamily;
 pub use hysteresis_zone::{
     hysteresis, hysteresis_and_stable_ranges, hysteresis_batch, hysteresis_with_monitor,
 };
 pub use impactless_motion::{free_amplitude, grazing_frequencies};
-pub use loss_of_stability::{Bounds, find_end_along, loss_of_stability};
+pub use loss_of_stability::{StabilityBounds, find_end_along, loss_of_stability};
 pub use single_impact_zone::single_impact;
 pub use stable_range::StableRange;
 pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
@@ -113,7 +113,7 @@ impl Zone {
     /// # Errors
     /// [`ZoneError::Orbit`] if the orbit is lost.
     pub fn orbit_of(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
-        let family = Frequencies(&self.scene);
+        let family = FrequencyFamily(&self.scene);
         Ok(Continuation::new(&family, 1).orbit_at(point)?)
     }
 
@@ -125,7 +125,7 @@ impl Zone {
         if !(0.0..=1.0).contains(&share) {
             return Err(ZoneError::Outside { share });
         }
-        let family = Frequencies(&self.scene);
+        let family = FrequencyFamily(&self.scene);
         let continuation = Continuation::new(&family, 1);
         let target = self.frequency_at(share);
         let mut best: Option<BranchPoint> = None;

@@ -3,7 +3,7 @@
 use super::followed_end::{LONGEST_BRANCH, find_end};
 use super::hysteresis_zone::follow_upward;
 use super::stable_ranges::FOLLOWED_RANGE;
-use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
+use super::{FrequencyFamily, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
@@ -102,7 +102,7 @@ fn zone_about(
     let frequency = start.scene.excitation.frequency;
     let rate = scene.scales().rate;
     let range = (FOLLOWED_RANGE.0 * rate, FOLLOWED_RANGE.1 * rate);
-    let family = Frequencies(scene);
+    let family = FrequencyFamily(scene);
     let continuation = Continuation::new(&family, 1);
     let (mut above, fold) = follow_upward(&continuation, start, (frequency, range.1), monitor)?;
     let high = match fold {

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use nalgebra::{Vector2, Vector4};
 
 use super::end::{Loss, ZoneEnd};
-use super::{Frequencies, Zone};
+use super::{FrequencyFamily, Zone};
 use crate::continuation::{
     Branch, BranchEnd, BranchPoint, Continuation, Family, MAX_CHORD_DISTANCE, SpecialKind,
 };
@@ -38,7 +38,7 @@ impl StableRange {
         scene: &CheckedScene,
         frequency: f64,
     ) -> Result<Option<BranchPoint>, OrbitError> {
-        let family = Frequencies(scene);
+        let family = FrequencyFamily(scene);
         let after = self
             .points
             .partition_point(|point| point.parameter < frequency);
@@ -95,7 +95,7 @@ pub(super) fn is_same_state(one: &BranchPoint, other: Vector2<f64>, scene: &Scen
 
 /// Scales of positions, velocities and frequencies of a scene.
 pub(super) fn unknown_scales(scene: &CheckedScene) -> [f64; 3] {
-    let family = Frequencies(scene);
+    let family = FrequencyFamily(scene);
     let ([length, speed], [rate]) = (family.state_scales(), family.parameter_scales());
     [length, speed, rate]
 }

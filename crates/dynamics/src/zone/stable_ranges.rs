@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use super::stable_range::{
     StableRange, is_same_state, lies_on_chord, stable_parts, unknown_scales,
 };
-use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
+use super::{FrequencyFamily, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{Branch, BranchEnd, BranchLimits, BranchPoint, Continuation};
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{
@@ -69,7 +69,7 @@ pub(super) fn find_stable_ranges(
     monitor: Monitor<'_>,
 ) -> Result<FoundRanges, OrbitError> {
     let scene = &scene.check()?;
-    let family = Frequencies(scene);
+    let family = FrequencyFamily(scene);
     let continuation = Continuation::new(&family, 1);
     let limits = branch_limits(scene);
     let sizes = unknown_scales(scene);

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 use softstop::{Dimension, Machine};
-use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, SearchOptions};
+use softstop_dynamics::attractors::{Attractor, Chaos, OrbitResiduals, SearchOptions};
 use softstop_dynamics::{LyapunovExponents, MotionKind, Orbit, Survey};
 
 use softstop_console::arguments::title;
@@ -94,7 +94,7 @@ fn figures(attractor: &Attractor) -> Record {
     figures
 }
 
-type Periodic<'a> = (&'a Orbit, &'a Certainty);
+type Periodic<'a> = (&'a Orbit, &'a OrbitResiduals);
 
 fn periodic<'a>() -> [Column<Periodic<'a>>; 12] {
     columns! { Periodic<'a>, it;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use softstop::{Dimension, Machine, Parameter, UnitSystem};
-use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan, SweepStep};
 
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, around, style};
 
@@ -33,7 +33,7 @@ const GRAIN: f64 = 0.8;
 const SEEN: f64 = 0.15;
 
 /// What a panel shows of a step.
-type Show = fn(&Step) -> Vec<f64>;
+type Show = fn(&SweepStep) -> Vec<f64>;
 
 impl SweepChart<'_> {
     /// The picture as an SVG document.

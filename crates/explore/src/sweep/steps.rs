@@ -3,13 +3,13 @@
 use softstop::Parameter;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_dynamics::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, Plan, SweepStep};
 
 /// A row of `sweep.csv`.
 pub(super) struct SweepRow<'a> {
     clearance: Option<f64>,
     direction: Direction,
-    step: &'a Step,
+    step: &'a SweepStep,
 }
 
 /// The columns of `sweep.csv`.
@@ -44,7 +44,7 @@ pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain]) -> impl Iterator<Item =
     })
 }
 
-fn velocities(step: &Step) -> String {
+fn velocities(step: &SweepStep) -> String {
     let velocities = step.velocities.iter();
     let written = velocities.map(|velocity| format!("{velocity:.9}"));
     written.collect::<Vec<_>>().join(" ")

@@ -5,7 +5,7 @@ use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
 use softstop_console::machine::PaperMachine;
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel};
+use softstop_lanes::{BatchObserver, Instructions, Job, LoweredMachine, Outcome, run_parallel};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -106,12 +106,14 @@ impl MotionBatch {
     /// As [`MotionBatch::safe`].
     pub fn follow(
         &self,
-        run: impl Fn(&[Machine], &[Job]) -> Vec<Outcome>,
+        run: impl Fn(&[LoweredMachine], &[Job]) -> Vec<Outcome>,
     ) -> Result<Count, MotionError> {
         let mut all = Vec::new();
         for (scenes, jobs) in self.scenes.chunks(PART).zip(self.jobs.chunks(PART)) {
-            let machines = scenes.iter().map(|scene| Ok(Machine::new(&scene.check()?)));
-            let machines: Vec<Machine> = machines.collect::<Result<_, SceneError>>()?;
+            let machines = scenes
+                .iter()
+                .map(|scene| Ok(LoweredMachine::new(&scene.check()?)));
+            let machines: Vec<LoweredMachine> = machines.collect::<Result<_, SceneError>>()?;
             let own = |(machine, job): (usize, &Job)| Job { machine, ..*job };
             let jobs: Vec<Job> = jobs.iter().enumerate().map(own).collect();
             all.extend(run(&machines, &jobs));
@@ -125,8 +127,8 @@ impl MotionBatch {
     /// As [`MotionBatch::safe`].
     pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
         let machines = self.scenes.par_iter();
-        let machines = machines.map(|scene| Ok(Machine::new(&scene.check()?)));
-        let machines: Vec<Machine> = machines.collect::<Result<_, SceneError>>()?;
+        let machines = machines.map(|scene| Ok(LoweredMachine::new(&scene.check()?)));
+        let machines: Vec<LoweredMachine> = machines.collect::<Result<_, SceneError>>()?;
         let jobs = self.jobs.repeat(rounds);
         let (outcomes, _) = run_parallel(Instructions::Widest, &machines, &jobs, |_| ());
         Count::of(&outcomes)

@@ -11,7 +11,7 @@ use softstop_console::failure::Failure;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
 use softstop_explore::study::Study;
-use softstop_lanes::{Instructions, Job, Machine, run_parallel};
+use softstop_lanes::{Instructions, Job, LoweredMachine, run_parallel};
 
 /// Points whose machines are in memory at once.
 const TOGETHER: u64 = 1 << 13;
@@ -91,8 +91,8 @@ fn lanes(study: &Study) -> Result<f64, MotionError> {
         let jobs: Vec<Job> = jobs.collect();
         let lowered = machines
             .par_iter()
-            .map(|it| Ok(Machine::new(&it.check(None)?)));
-        let lowered: Vec<Machine> = lowered.collect::<Result<_, SceneError>>()?;
+            .map(|it| Ok(LoweredMachine::new(&it.check(None)?)));
+        let lowered: Vec<LoweredMachine> = lowered.collect::<Result<_, SceneError>>()?;
         run_parallel(Instructions::Widest, &lowered, &jobs, |_| ());
         seconds += begin.elapsed().as_secs_f64();
     }

@@ -136,7 +136,7 @@ fn a_watcher_of_impacts_hears_of_each() {
 #[test]
 fn settled_motions_cost_nothing_more() {
     let scene = Ratios::unloaded().scene().expect("valid");
-    let machines = [Machine::new(&scene.check().expect("valid"))];
+    let machines = [LoweredMachine::new(&scene.check().expect("valid"))];
     let job = |periods| Job {
         machine: 0,
         start: Start::new(6.9, 9.5),
@@ -158,7 +158,7 @@ fn comes_back(scene: &Scene, state: Start, periods: u64) -> bool {
 /// Where motions end that meet a second face once in several periods: their returns look like those to a z = 1 motion
 /// that none of them reaches.
 fn ends(scene: &Scene, starts: &[Start], periods: u64) -> Vec<Start> {
-    let machines = [Machine::new(&scene.check().expect("valid"))];
+    let machines = [LoweredMachine::new(&scene.check().expect("valid"))];
     let job = |start: &Start| Job {
         machine: 0,
         start: *start,

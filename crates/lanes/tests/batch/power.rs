@@ -23,7 +23,7 @@ fn power(index: usize) -> Scene {
 }
 
 fn is_for_lanes(scene: &Scene) -> bool {
-    Machine::new(&scene.check().expect("valid")).is_for_lanes()
+    LoweredMachine::new(&scene.check().expect("valid")).is_for_lanes()
 }
 
 #[test]

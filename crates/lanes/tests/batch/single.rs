@@ -7,7 +7,7 @@ use softstop_testing::{hertz, kelvin_voigt};
 fn what_lanes_cannot_follow_the_scalar_engine_does() {
     let mut scene = Ratios::unloaded().scene().expect("valid");
     scene.stop = hertz(100.0, 1.2, 0.1);
-    let machine = Machine::new(&scene.check().expect("valid"));
+    let machine = LoweredMachine::new(&scene.check().expect("valid"));
     assert!(!machine.is_for_lanes());
     let from = Start {
         position: 0.0,
@@ -36,7 +36,7 @@ pub fn in_a_lane(
     periods: u64,
     watch: &mut impl BatchObserver,
 ) -> Outcome {
-    let machines = [Machine::new(&scene.check().expect("valid"))];
+    let machines = [LoweredMachine::new(&scene.check().expect("valid"))];
     let job = Job {
         machine: 0,
         start,

@@ -34,7 +34,7 @@ fn two_sided(index: usize) -> Scene {
 }
 
 fn is_for_lanes(scene: &Scene) -> bool {
-    Machine::new(&scene.check().expect("valid")).is_for_lanes()
+    LoweredMachine::new(&scene.check().expect("valid")).is_for_lanes()
 }
 
 /// A motion of each machine from a position between its clearances.

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use softstop::Ratios;
-use softstop_dynamics::{Chain, Step};
+use softstop_dynamics::{Chain, SweepStep};
 
 use super::{Bifurcation, Diagram};
 use crate::diagram::{self, WAYS, by_way, dots, steps};
@@ -26,7 +26,7 @@ const LEAST: f64 = 0.02;
 pub(super) fn chart(
     figure: &Figure,
     diagrams: &[Diagram],
-    isolated: &[Step],
+    isolated: &[SweepStep],
     bifurcations: &[Bifurcation<'_>],
 ) -> Result<Chart> {
     let letters = figure9::letters()?;
@@ -80,9 +80,9 @@ fn words((number, found): &Bifurcation<'_>) -> String {
 
 impl Diagram<'_> {
     /// Draws it into a panel as high as the velocities, with the names of motions beside them.
-    fn draw(&self, isolated: &[&Step], panel: &mut Panel) {
+    fn draw(&self, isolated: &[&SweepStep], panel: &mut Panel) {
         let all = steps(self.ways).chain(isolated.iter().copied());
-        let top = all.map(Step::hardest_impact).fold(0.0, f64::max);
+        let top = all.map(SweepStep::hardest_impact).fold(0.0, f64::max);
         let top = if top > 0.0 { top } else { 1.0 };
         let fleeting = steps(self.fleeting).filter(|step| step.hardest_impact() > 0.0);
         let fleeting = Layer::dots(fleeting.flat_map(dots), 0.8 * DOT, style::OPTIMUM);
@@ -117,7 +117,7 @@ impl Diagram<'_> {
     }
 
     /// Each motion once: eta, X'- and its name, in the middle of its longest stretch.
-    fn names(&self, isolated: &[&Step]) -> Vec<((f64, f64), String)> {
+    fn names(&self, isolated: &[&SweepStep]) -> Vec<((f64, f64), String)> {
         let (low, high) = self.part.range;
         let mut names: Vec<(f64, (f64, f64), String)> = Vec::new();
         let ways = self.ways.iter().map(Chain::rising_steps);
@@ -142,17 +142,18 @@ impl Diagram<'_> {
 }
 
 /// A periodic motion's name.
-fn name(step: &Step) -> Option<String> {
+fn name(step: &SweepStep) -> Option<String> {
     step.motion.regime()?;
     let scene = Ratios::unloaded().scene().ok()?;
     Some(report::name(&diagram::motion(&scene, step)))
 }
 
 /// True if a step shows a motion on its way from one periodic motion to another.
-fn is_passing(steps: &[&Step], index: usize) -> bool {
-    let is_settled = |step: &&&Step| step.is_settled();
+fn is_passing(steps: &[&SweepStep], index: usize) -> bool {
+    let is_settled = |step: &&&SweepStep| step.is_settled();
     let before = steps[..index].iter().rfind(is_settled);
     let after = steps[index + 1..].iter().find(is_settled);
-    let repeats = |step: Option<&&Step>| step.is_none_or(|step| step.motion.regime().is_some());
+    let repeats =
+        |step: Option<&&SweepStep>| step.is_none_or(|step| step.motion.regime().is_some());
     !steps[index].is_settled() && repeats(before) && repeats(after)
 }

@@ -5,7 +5,7 @@ use softstop::{Parameter, Ratios, Start};
 use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 use softstop_dynamics::monitor::recall_or_compute;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, SweepStep};
 
 use super::Diagram;
 use crate::diagram::{self, Job};
@@ -20,9 +20,9 @@ const REACH: f64 = 0.02;
 const SHORTEST: usize = 10;
 
 /// Steps of all isolated motions.
-pub(super) fn find(known: &[Diagram], studio: &Studio) -> Result<Vec<Step>> {
+pub(super) fn find(known: &[Diagram], studio: &Studio) -> Result<Vec<SweepStep>> {
     let detail = studio.detail;
-    let mut found: Vec<Step> = Vec::new();
+    let mut found: Vec<SweepStep> = Vec::new();
     for (eta, orbit) in seeds(known, studio)? {
         if near(&found, eta).is_some_and(|step| shows(step, &orbit)) {
             continue;
@@ -35,7 +35,7 @@ pub(super) fn find(known: &[Diagram], studio: &Studio) -> Result<Vec<Step>> {
                 let mut others = known.iter().flat_map(|diagram| at(diagram, step.value));
                 !wanders && !others.any(|other| diagram::same(step, other))
             });
-            let apart: Vec<Step> = apart.collect();
+            let apart: Vec<SweepStep> = apart.collect();
             if apart.len() >= detail.pick(SHORTEST, 2) {
                 found.extend(apart);
             }
@@ -91,21 +91,21 @@ fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job> {
 }
 
 /// True if a step shows an orbit.
-fn shows(step: &Step, orbit: &Orbit) -> bool {
+fn shows(step: &SweepStep, orbit: &Orbit) -> bool {
     let (own, hardest) = (step.hardest_impact(), orbit.before_impact_velocity());
     step.motion.regime() == Some(orbit.regime())
         && (own - hardest).abs() <= diagram::APART * hardest.max(own)
 }
 
 /// The steps of both sweeps nearest to a frequency, if the diagram shows it.
-fn at<'a>(diagram: &'a Diagram<'_>, eta: f64) -> impl Iterator<Item = &'a Step> + use<'a> {
+fn at<'a>(diagram: &'a Diagram<'_>, eta: f64) -> impl Iterator<Item = &'a SweepStep> + use<'a> {
     let (low, high) = diagram.part.range;
     let ways = diagram.ways.iter();
     let ways = ways.filter(move |_| (low..=high).contains(&eta));
     ways.filter_map(move |chain| near(&chain.steps, eta))
 }
 
-fn near(steps: &[Step], eta: f64) -> Option<&Step> {
-    let gap = |step: &&Step| (step.value - eta).abs();
+fn near(steps: &[SweepStep], eta: f64) -> Option<&SweepStep> {
+    let gap = |step: &&SweepStep| (step.value - eta).abs();
     steps.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
 }

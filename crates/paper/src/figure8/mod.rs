@@ -6,7 +6,7 @@ mod isolated;
 use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::Ratios;
-use softstop_dynamics::{Chain, Direction, Step};
+use softstop_dynamics::{Chain, Direction, SweepStep};
 
 use crate::diagram::{self, Job, Part};
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
@@ -112,7 +112,7 @@ fn explanation(parts: &Parts, detail: Detail) -> String {
     )
 }
 
-fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
+fn table(diagrams: &[Diagram], isolated: &[SweepStep]) -> Result<Vec<u8>> {
     let mut sweeps = Vec::new();
     for diagram in diagrams {
         let name = match &*diagram.part.name {

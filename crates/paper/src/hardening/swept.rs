@@ -4,7 +4,7 @@ use anyhow::Result;
 use softstop::Parameter;
 use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::motion::MotionClass;
-use softstop_dynamics::{Chain, MotionKind, Plan, Step};
+use softstop_dynamics::{Chain, MotionKind, Plan, SweepStep};
 
 use super::stops::{CLEARANCE, Law};
 use crate::diagram::{self, dots};
@@ -15,8 +15,8 @@ pub(super) const RANGE: (f64, f64) = (0.6, 1.6);
 /// The way up and the way down of a stop, both in rising order of frequency.
 pub(super) struct SweptStop {
     pub(super) law: Law,
-    pub(super) up: Vec<Step>,
-    pub(super) down: Vec<Step>,
+    pub(super) up: Vec<SweepStep>,
+    pub(super) down: Vec<SweepStep>,
 }
 
 /// Sweeps of stops: so many frequencies, and drive periods at each.
@@ -40,7 +40,7 @@ pub(super) fn sweep(
 }
 
 /// The kind of motion of a step; subharmonic ones but z = 1/2 are one kind.
-pub(super) fn kind(step: &Step) -> MotionClass {
+pub(super) fn kind(step: &SweepStep) -> MotionClass {
     let regime = step.motion.regime().map(|it| (it.impacts, it.periods));
     match (regime, &step.motion) {
         _ if step.velocities.is_empty() => MotionClass::Zero,
@@ -56,7 +56,7 @@ pub(super) fn kind(step: &Step) -> MotionClass {
 impl SweptStop {
     /// The before-impact velocities over the frequency on both ways.
     pub(super) fn points(&self) -> [Vec<(f64, f64)>; 2] {
-        let hits = |step: &&Step| !step.velocities.is_empty();
+        let hits = |step: &&SweepStep| !step.velocities.is_empty();
         [&self.up, &self.down].map(|steps| steps.iter().filter(hits).flat_map(dots).collect())
     }
 
@@ -74,7 +74,7 @@ impl SweptStop {
     /// Share of the frequencies at which the way up ends in a subharmonic motion or chaos.
     pub(super) fn complex(&self) -> f64 {
         use MotionClass::{Chaos, Doubled, Few, Half};
-        let complex = |step: &&Step| matches!(kind(step), Doubled | Half | Few | Chaos);
+        let complex = |step: &&SweepStep| matches!(kind(step), Doubled | Half | Few | Chaos);
         self.up.iter().filter(complex).count() as f64 / self.up.len().max(1) as f64
     }
 
@@ -83,14 +83,15 @@ impl SweptStop {
     pub(super) fn likeness(&self, other: &Self) -> [f64; 2] {
         let ours = self.up.iter().chain(&self.down);
         let pairs = ours.zip(other.up.iter().chain(&other.down));
-        let is_other = |step: &Step| !matches!(kind(step), MotionClass::Zero | MotionClass::One);
+        let is_other =
+            |step: &SweepStep| !matches!(kind(step), MotionClass::Zero | MotionClass::One);
         let others = pairs.clone().filter(|(a, b)| is_other(a) || is_other(b));
         [agreement(pairs), agreement(others)]
     }
 }
 
 /// Share of the pairs that are of the same kind, among those in which both have settled.
-fn agreement<'a>(pairs: impl Iterator<Item = (&'a Step, &'a Step)>) -> f64 {
+fn agreement<'a>(pairs: impl Iterator<Item = (&'a SweepStep, &'a SweepStep)>) -> f64 {
     let kinds = pairs.map(|(a, b)| (kind(a), kind(b)));
     let settled =
         kinds.filter(|(a, b)| *a != MotionClass::Unsettled && *b != MotionClass::Unsettled);

@@ -3,7 +3,7 @@
 use crate::transitions::Transition;
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan, SweepStep};
 
 /// A sweep over the end of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ impl SweptEnd {
 }
 
 /// The steps of a sweep over the end of a motion, on whole steps, as a run by hand would go.
-fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>> {
+fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<SweepStep>> {
     let (before, after) = AROUND;
     let (way, below, above) = match transition.rising {
         true => (Direction::Up, before, after),
@@ -69,7 +69,7 @@ fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>
     is_done.then_some(chain.steps)
 }
 
-fn is(motion: &MotionKind, step: &Step) -> bool {
+fn is(motion: &MotionKind, step: &SweepStep) -> bool {
     match motion {
         MotionKind::Chaos => step.motion == MotionKind::Chaos,
         _ => motion.regime().is_some() && motion.regime() == step.motion.regime(),

@@ -9,7 +9,7 @@ use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::internals::{Ensemble, HasMember, Member};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{LyapunovExponents, Orbit, OrbitError};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
@@ -37,7 +37,7 @@ impl Explorer<'_> {
         if !leaves_in_time {
             return Ok(false);
         }
-        let ensemble = Ensemble::new(vec![Machine::new(&scene)], self.monitor);
+        let ensemble = Ensemble::new(vec![LoweredMachine::new(&scene)], self.monitor);
         let member = Member::new(0, start);
         let mut calm = Stretches::new(member, &scene, start, periods, |it| {
             has_bursts(it) || it.since > it.longest.max(it.calm)

@@ -17,7 +17,7 @@ use crate::orbit::{
 };
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene, Start};
-use softstop_lanes::Machine;
+use softstop_lanes::LoweredMachine;
 
 /// Starts of the pilot, which shows where motions stay.
 const PILOTS: usize = 64;
@@ -215,7 +215,7 @@ impl<'a> Search<'a> {
         let scene = scene.check()?;
         Ok(Self {
             options: *options,
-            ensemble: Ensemble::new(vec![Machine::new(&scene)], monitor),
+            ensemble: Ensemble::new(vec![LoweredMachine::new(&scene)], monitor),
             catalogue: AttractorCatalogue::new(&scene),
             scene,
             members: Vec::new(),

@@ -4,7 +4,7 @@
 //! A [`Ladder`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
 //! it agrees with the scene's own contact ([`Contact`]) at one velocity, the *operating velocity*. What a
 //! model gives are [`Answers`] of its motion, the bounds of its z = 1 motion among them
-//! ([`Bounds`](softstop_dynamics::zone::Bounds));
+//! ([`StabilityBounds`](softstop_dynamics::zone::StabilityBounds));
 //! [`Answers::error`] tells how far a [`Quantity`] of it is from that of the scene itself.
 
 mod contact;

@@ -6,7 +6,7 @@ use softstop::internals::work;
 use softstop::{Clock, Crossing, CrossingKind, ImpactEvent, MotionError, PhaseKind, Scene, Start};
 use softstop_dynamics::internals::peak_contact_force;
 use softstop_dynamics::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
-use softstop_dynamics::zone::Bounds;
+use softstop_dynamics::zone::StabilityBounds;
 
 use super::Quantity;
 
@@ -104,7 +104,7 @@ impl Answers {
     /// [`OrbitError`] if a bound cannot be followed.
     pub fn with_bounds(mut self, scene: &Scene) -> Result<Self, OrbitError> {
         let near = (self.regime == Some(Regime::ONE)).then_some(self.start);
-        let bounds = Bounds::of_scene(scene, near)?;
+        let bounds = StabilityBounds::of_scene(scene, near)?;
         self.values[Quantity::GrazingFrequency as usize] = bounds.grazing;
         self.values[Quantity::FlipFrequency as usize] = bounds.flip;
         self.values[Quantity::FoldFrequency as usize] = bounds.fold;

@@ -57,7 +57,7 @@ quantities! {
 }
 
 impl Quantity {
-    /// Whether it is one of the [`Bounds`](softstop_dynamics::zone::Bounds).
+    /// Whether it is one of the [`StabilityBounds`](softstop_dynamics::zone::StabilityBounds).
     pub const fn is_bound(self) -> bool {
         matches!(
             self,
