@@ -5,27 +5,22 @@ use nalgebra::{Matrix2, Vector2, Vector4};
 use super::cycle::CycleArc;
 use super::cycle_state::Derivatives;
 
-/// Largest relative change of a derivative by damping and stiffness between the crossings of one face by two motions, and of
-/// the time between these crossings by what first order leaves out.
+/// Largest relative error that the bounds on an arc of a cycle allow first order: of a derivative over the time between the
+/// crossings of one face by two motions, and of that time itself. Beyond it there is no bound.
 const MAX_RELATIVE_CHANGE: f64 = 0.25;
 
-/// Bounds on what first order leaves out of a deviation at a crossing: of the state and of the delay.
+/// Bounds on the second-order remainder of a deviation from the cycle at a crossing: of the state, and of the delay of the
+/// crossing in s.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LinearError {
     pub state: Vector2<f64>,
     pub delay: f64,
 }
 
-/// Bounds on the delay of the crossing before, and on the force per mass that it makes along an arc and its rate.
-pub(super) struct DelayBounds {
-    delay: f64,
-    force: f64,
-    rate: f64,
-}
-
-/// Bounds on the motions of a ball along an arc.
+/// Bounds on all motions of a ball about a cycle along one arc of the cycle, as [`CycleArc::bounds`] computes them.
 pub(super) struct ArcBounds {
-    pub delayed: DelayBounds,
+    /// The drive's force per mass that the delay of the crossing before adds along the arc, and the rate of that force.
+    pub delayed: (f64, f64),
     /// What first order leaves out of the steady motion.
     curve: Vector2<f64>,
     /// Bounds on the delay at its end, and on the derivatives of the cycle there, from the velocity to the fourth.
@@ -36,7 +31,8 @@ pub(super) struct ArcBounds {
 }
 
 impl ArcBounds {
-    /// Bounds on the deviation of the state at an instant of the arc.
+    /// Bounds on the deviation of position and velocity from the cycle at an instant of the arc, for all motions of a ball:
+    /// the linear part by the derivatives `at` that instant, and the remainder `rest` of the crossing before.
     pub fn deviation(
         &self,
         at: &Derivatives,
@@ -49,17 +45,19 @@ impl ArcBounds {
 }
 
 impl CycleArc {
-    /// Bounds on the motions of a ball along this arc if they meet no other face; none if first order says too little.
+    /// Bounds on the motions of a ball along this arc if they meet no other face than the cycle; none if the remainder
+    /// exceeds [`MAX_RELATIVE_CHANGE`] of first order.
     pub fn bounds(
         &self,
         ball: &Matrix2<f64>,
         rest: &LinearError,
         frequency: f64,
     ) -> Option<ArcBounds> {
-        let delayed = self.delay_bounds((self.delay * ball).norm() + rest.delay, frequency);
-        let second = self.swing * frequency * frequency * 0.5 * delayed.delay * delayed.delay;
+        let delay = (self.delay * ball).norm() + rest.delay;
+        let force = self.force * frequency * delay;
+        let second = self.swing * frequency * frequency * 0.5 * delay * delay;
         let mut passed = ArcBounds {
-            delayed,
+            delayed: (force, force * frequency),
             curve: Vector2::new(second, second * frequency),
             late: 0.0,
             moved: Vector4::zeros(),
@@ -69,7 +67,7 @@ impl CycleArc {
         let linear = self.gradient.abs().dot(&at_end.transpose());
         let late = (1.0 + MAX_RELATIVE_CHANGE) * linear;
         let moved = self.cycle_derivative_bounds(late, frequency)?;
-        let rates = self.deviation_rates(&at_end, late, &passed.delayed)?;
+        let rates = self.deviation_rates(&at_end, late, force)?;
         let left_out = (Vector2::new(moved[1], moved[2]) * (0.5 * late) + rates) * late;
         if self.gradient.abs().dot(&left_out.transpose()) > MAX_RELATIVE_CHANGE * linear {
             return None;
@@ -79,7 +77,8 @@ impl CycleArc {
         Some(passed)
     }
 
-    /// Bounds at the crossing that ends the arc, from those at the one before and what is left out of the state there.
+    /// Second-order remainder at the crossing that ends the arc, from that at the crossing `before` the arc and from what the
+    /// linear map along the arc leaves out of the state.
     pub fn linear_error_at_exit(
         &self,
         before: &LinearError,
@@ -97,16 +96,8 @@ impl CycleArc {
         }
     }
 
-    fn delay_bounds(&self, delay: f64, frequency: f64) -> DelayBounds {
-        let force = self.force * frequency * delay;
-        DelayBounds {
-            delay,
-            force,
-            rate: force * frequency,
-        }
-    }
-
-    /// Bounds on the derivatives of the cycle within `time` of the end of the arc, from the velocity to the fourth.
+    /// Bounds on velocity, acceleration, jerk and snap of the cycle within `time` of the end of the arc; none if that time is
+    /// too long for them.
     fn cycle_derivative_bounds(&self, time: f64, frequency: f64) -> Option<Vector4<f64>> {
         let [_, v, a, j] = self.end.map(f64::abs);
         let force = self.force * frequency * frequency;
@@ -116,46 +107,48 @@ impl CycleArc {
         Some([v + time * acceleration, acceleration, jerk, snap].into())
     }
 
-    /// 1 - (damping t + stiffness t^2), by which a bound on a derivative over a time t is divided; none if that time is too
-    /// long.
+    /// 1 - (damping t + stiffness t^2): a bound on a derivative at one instant, divided by this, holds over a time t about
+    /// it. None if t is too long.
     fn unchanged_share(&self, time: f64) -> Option<f64> {
         let changes = self.damping * time + self.stiffness * time * time;
         (changes <= MAX_RELATIVE_CHANGE).then_some(1.0 - changes)
     }
 
-    /// Bounds on the velocity and acceleration of a deviation within `time` of its instant.
+    /// Bounds on velocity and acceleration of a deviation from the cycle within `time` of the instant at which it is
+    /// `deviation`; none if that time is too long.
     fn deviation_rates(
         &self,
         deviation: &Vector2<f64>,
         time: f64,
-        delayed: &DelayBounds,
+        force: f64,
     ) -> Option<Vector2<f64>> {
-        let change = time * (self.stiffness * deviation.x + delayed.force);
+        let change = time * (self.stiffness * deviation.x + force);
         let velocity = (deviation.y + change) / self.unchanged_share(time)?;
         let position = deviation.x + time * velocity;
-        let acceleration = self.damping * velocity + self.stiffness * position + delayed.force;
+        let acceleration = self.damping * velocity + self.stiffness * position + force;
         Some(Vector2::new(velocity, acceleration))
     }
 
-    /// Bounds on a deviation and its next three derivatives over a time in which a free motion grows by at most
-    /// `growth`.
+    /// Bounds on a deviation from the cycle and its first three derivatives over a `time` after the instant at which it is
+    /// `deviation`; `growth`: the factor by which a free motion may grow meanwhile; `force`, `force_rate`: of
+    /// [`ArcBounds::delayed`].
     pub fn deviation_bounds(
         &self,
         deviation: &Vector2<f64>,
         time: f64,
         growth: f64,
-        delayed: &DelayBounds,
+        (force, force_rate): (f64, f64),
     ) -> Vector4<f64> {
-        let pushed = deviation.y + time * delayed.force;
+        let pushed = deviation.y + time * force;
         let position = growth * (deviation.x + time * pushed);
         let velocity = growth * (time * self.stiffness * deviation.x + pushed);
-        let acceleration = self.damping * velocity + self.stiffness * position + delayed.force;
-        let jerk = self.damping * acceleration + self.stiffness * velocity + delayed.rate;
+        let acceleration = self.damping * velocity + self.stiffness * position + force;
+        let jerk = self.damping * acceleration + self.stiffness * velocity + force_rate;
         [position, velocity, acceleration, jerk].into()
     }
 }
 
-/// Euclidean norm of each row: the largest component of the image of a unit vector.
+/// Euclidean norm of each row of a matrix, the largest values of the two components that it makes of unit vectors.
 fn row_norms(matrix: &Matrix2<f64>) -> Vector2<f64> {
     Vector2::new(matrix.row(0).norm(), matrix.row(1).norm())
 }

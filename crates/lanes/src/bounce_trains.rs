@@ -2,28 +2,28 @@
 
 use std::f64::consts::TAU;
 
-use super::law::Constants;
+use super::law::PhaseConstants;
 use softstop::Excitation;
 use softstop::internals::{Beyond, Exit, MAX_RESTITUTION, Phase, PhaseId, Phases, Surface};
 
-/// Duration of the shortest bounce that lanes follow at a face with trains of bounces, in drive periods.
+/// Duration of the shortest bounce, in drive periods, that lanes follow at a face at which bounces may come in trains.
 const MIN_BOUNCE_DURATION: f64 = 1e-2;
-/// Largest exponent (damping / mass) times drive period of a machine with trains of bounces: under less damping, bounces
-/// of at least [`MIN_BOUNCE_DURATION`] do not come to rest before the drive lifts the mass.
+/// Largest (damping / mass) times drive period with which lanes follow a machine with trains of bounces: under less damping,
+/// bounces of at least [`MIN_BOUNCE_DURATION`] do not come to rest before the drive lifts the mass.
 const MAX_DAMPING_EXPONENT: f64 = 6.0;
 
-/// Faces with trains of bounces: the drive can press the mass onto them while they throw it back with hardly any loss, by a jump of
-/// the force that is larger than the press, or as a wall that is nearly elastic. Bounces there may form rows without
-/// end, whose end the safe engine decides from the whole row.
+/// The phases and the drive of a machine, to find faces at which bounces come in trains (chatter): the drive can press the
+/// mass onto them while they throw it back with hardly any loss, by a jump of the force that is larger than the press, or as
+/// a wall that is nearly elastic. What ends a train only the safe engine can decide.
 pub(super) struct BounceTrains<'a> {
     pub phases: &'a Phases,
     pub drive: Excitation,
 }
 
 impl BounceTrains<'_> {
-    /// The laws of all phases, if lanes can follow them.
-    pub fn lane_laws(&self) -> Option<Vec<Constants>> {
-        let mut laws = vec![Constants::default(); self.phases.phases.len()];
+    /// The constants of all phases of the machine for the lanes; none if the lanes cannot follow one of them.
+    pub fn lane_laws(&self) -> Option<Vec<PhaseConstants>> {
+        let mut laws = vec![PhaseConstants::default(); self.phases.phases.len()];
         for (law, phase) in laws.iter_mut().zip(&self.phases.phases) {
             law.set_to_phase(self.phases, phase)?;
             law.slow = law.slow.max(self.slowest_bounce(phase));
@@ -31,19 +31,21 @@ impl BounceTrains<'_> {
         Some(laws)
     }
 
-    /// The constant force on the mass towards the stop at a surface in a phase.
+    /// The constant force on the mass towards the stop, in N, at a surface under the law of a phase.
     fn force_towards_stop(&self, phase: PhaseId, surface: &Surface) -> f64 {
         let law = &self.phases[phase].law;
         surface.side * (law.force - law.stiffness * surface.position)
     }
 
-    /// Rounding of the difference between that force in this phase and in another one.
+    /// Bound on the rounding of the force at a position under the law of a phase, in N, when it is compared with that of
+    /// another phase.
     fn force_rounding(&self, phase: PhaseId, position: f64) -> f64 {
         let law = &self.phases[phase].law;
         8.0 * f64::EPSILON * (law.force.abs() + (law.stiffness * position).abs())
     }
 
-    /// True if a surface throws the mass back with hardly any loss while the drive can press it onto it.
+    /// True if bounces come in trains at a surface: it throws the mass back with hardly any loss while the drive can press
+    /// the mass onto it.
     fn bounces_at(&self, surface: &Surface) -> bool {
         let before = self.force_towards_stop(surface.before, surface);
         let mut beyond = [Some(surface.beyond), surface.beyond_unfed]
@@ -60,8 +62,8 @@ impl BounceTrains<'_> {
         elastic && before + self.drive.amplitude > 0.0
     }
 
-    /// True if no row of bounces that lanes follow comes to its end: the drive lifts the mass from all such faces,
-    /// before damping has taken much.
+    /// True if the lanes meet no train of bounces that comes to rest: the drive lifts the mass from each face with trains
+    /// before damping has made the bounces too short.
     pub fn ends_before_rest(&self) -> bool {
         let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
         let damping = damping.fold(0.0, f64::max) / self.phases.mass;
@@ -73,7 +75,8 @@ impl BounceTrains<'_> {
         faces.all(|surface| lifts(surface) || !self.bounces_at(surface))
     }
 
-    /// Speed of the shortest bounces that lanes follow at the ends of a phase.
+    /// Speed in m/s after which bounces at the faces of a phase last at least [`MIN_BOUNCE_DURATION`]; slower ones are left
+    /// to the safe engine.
     fn slowest_bounce(&self, phase: &Phase) -> f64 {
         let faces = phase.exits.iter().filter_map(|exit| match exit {
             Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),

@@ -7,19 +7,13 @@ use super::cycle::Cycle;
 
 /// Largest error of the limit, in units of the distance of returns.
 const MAX_LIMIT_ERROR: f64 = 4e-12;
-/// Largest error of the extrapolated last return, in these units: it adds up what is left out in all returns, as if each bent
-/// the motion the same way.
-const MAX_END_ERROR: f64 = 2e-10;
 /// Most balls about the limit that are tried for the proof.
 const MAX_BALLS: usize = 8;
-/// Ratio of the radius of a ball to that of the one before, on which the proof failed.
-const RADIUS_RATIO: f64 = 0.25;
-/// Least norm of the map of returns that is assumed in the bound on how deviations die out.
-const MIN_RATE: f64 = 0.25;
 
-/// What is proven of all returns in a ball about the limit.
+/// Proof that all returns in a ball about the limit of a lane's returns to an impact contract to it, with the linear map by
+/// which later returns are extrapolated.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Certificate {
+pub(super) struct ContractionCertificate {
     pub limit: Vector2<f64>,
     pub map: Matrix2<f64>,
     pub norm: ContractionNorm,
@@ -31,55 +25,53 @@ pub(super) struct Certificate {
     pub aside: f64,
 }
 
-impl Certificate {
-    /// Bound on the factor by which deviations from the limit shrink to first order, from one return to the next.
-    fn rate(&self) -> f64 {
-        self.norm.rate.max(MIN_RATE)
-    }
-
-    /// True if the limit is as exact as extrapolation asks.
+impl ContractionCertificate {
+    /// True if the limit is known within the error that extrapolation allows.
     pub fn is_exact(&self) -> bool {
-        let moved = self.curvature * self.aside * self.aside / (1.0 - self.rate());
+        let moved = self.curvature * self.aside * self.aside / (1.0 - self.norm.rate_bound());
         moved * self.norm.largest_length() <= MAX_LIMIT_ERROR
     }
 
-    /// By which factor a deviation from the limit is too large for its ball, or its image after so many returns too inexact:
-    /// at most 1 where that may be extrapolated.
+    /// By which factor a deviation `off` from the limit is too large for its ball, or the return `times` returns later is
+    /// known too inexactly by the linear map: at most 1 where it may be extrapolated.
     pub fn excess(&self, off: &Vector2<f64>, times: f64) -> f64 {
-        let (rate, curvature, aside) = (self.rate(), self.curvature, self.aside);
+        let (rate, curvature, aside) = (self.norm.rate_bound(), self.curvature, self.aside);
         let length = self.norm.norm_of(off) + aside;
         // |d_k| <= q rate^k |d_0| with 1/q = 1 - curvature |d_0| / (rate (1 - rate)); what is not linear adds up.
         let q = 1.0 / (1.0 - curvature * length / (rate * (1.0 - rate))).max(0.5);
         let bent = curvature * length * q * (q * length / (1.0 - rate) + 2.0 * times * aside);
         let error = bent * rate.powf(times - 1.0) * self.norm.largest_length();
-        ((length + aside) / self.radius).max(error / MAX_END_ERROR)
+        // What is left out in all returns adds up as if each bent the motion the same way: an error of 2e-10 is allowed.
+        ((length + aside) / self.radius).max(error / 2e-10)
     }
 
-    /// Returns after which an excess has fallen to 1.
+    /// Number of returns after which an `excess` above 1 has fallen to 1.
     pub fn returns_until_exact(&self, excess: f64) -> f64 {
-        (excess.ln() / -self.rate().ln()).ceil()
+        (excess.ln() / -self.norm.rate_bound().ln()).ceil()
     }
 
-    /// The return that is so many returns after a deviation from the limit.
+    /// The return (velocity, drive angle) that comes `times` returns after one that deviates from the limit by `off`, by the
+    /// linear map.
     pub fn return_after(&self, off: &Vector2<f64>, times: f64) -> Vector2<f64> {
         self.limit + self.map.pow(times as u32) * off
     }
 }
 
-/// The radius of the largest ball of those tried, not larger than `most`, whose motions all make the crossings of
-/// the cycle and contract to the limit, and the curvature in it; none if rounding moves the limit too far.
+/// Radius of the largest ball of those tried about the limit, at most `most`, whose motions all make the crossings of the
+/// cycle and contract to the limit, and the curvature of the return map in it; none if no ball is proven, or rounding moves
+/// the limit too far.
 pub(super) fn find_ball(
     cycle: &Cycle,
     norm: &ContractionNorm,
     inverse: &Matrix2<f64>,
     most: f64,
 ) -> Option<(f64, f64)> {
-    let rate = norm.rate.max(MIN_RATE);
-    let mut radius = most;
+    let rate = norm.rate_bound();
+    let (mut radius, shrink) = (most, 0.25);
     for _ in 0..MAX_BALLS {
         let ball = norm.from * radius;
         let Some(remainder) = cycle.remainder(&ball) else {
-            radius *= RADIUS_RATIO;
+            radius *= shrink;
             continue;
         };
         if (inverse.abs() * remainder.rounding).norm() > MAX_LIMIT_ERROR {
@@ -92,7 +84,7 @@ pub(super) fn find_ball(
         } else if cycle.ball_is_clear(&ball) {
             return Some((radius, curvature));
         } else {
-            radius *= RADIUS_RATIO;
+            radius *= shrink;
         }
     }
     None

@@ -4,26 +4,23 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Complex, Vector2};
 
-use super::law::{Constants, FREE_TERMS, WINDOW_ANGLE};
+use super::law::{FREE_TERMS, PhaseConstants, WINDOW_ANGLE};
 use softstop::PhaseKind;
 use softstop::internals::{
     Beyond, Exit, MIN_SCALE_STIFFNESS, Modes, Phase, Phases, PowerLaw, SurfaceId,
 };
 
-/// Most scan windows per drive period with which lanes follow a machine; the safe engine follows stiffer ones.
+/// Most scan windows per drive period with which lanes follow a phase: stiffer phases are left to the safe engine.
 const MAX_WINDOWS_PER_PERIOD: f64 = 65_536.0;
 /// Exponents of the power laws that lanes follow.
 const POWER_LAW_EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
-/// Largest rate of the linear part of a power-law contact, in units of the drive's w, with which lanes follow it: under heavier
-/// damping the mass creeps, which the safe engine follows in long steps.
+/// Largest rate of damping and suspension in a power-law contact, in units of the drive's w, with which lanes follow it:
+/// under heavier damping the mass creeps, which the safe engine follows in long steps.
 const MAX_POWER_LAW_RATE: f64 = 100.0;
-/// Distance from a guard within which only the safe engine decides, relative to the size of the motion.
-const AMBIGUOUS_DISTANCE: f64 = 1e-10;
-/// Speed at a guard below which only the safe engine decides, relative to size times fastest rate of the motion.
-const AMBIGUOUS_SPEED: f64 = 1e-5;
 
-impl Constants {
-    /// Sets all constants to those of a phase, from zero; none if only the safe engine can follow it.
+impl PhaseConstants {
+    /// Sets all constants, which are zero before, to those of a phase of the engine; none if only the safe engine can follow
+    /// that phase.
     pub fn set_to_phase(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         if let Some(hertz) = &phase.hertz {
@@ -80,7 +77,7 @@ impl Constants {
         Some(())
     }
 
-    /// Sets the constants of a phase under a power law; none if only the safe engine can follow it.
+    /// Sets the constants of a phase in which a power-law contact acts; none if only the safe engine can follow it.
     fn set_to_power_law(&mut self, phases: &Phases, phase: &Phase, hertz: &PowerLaw) -> Option<()> {
         let constants = self;
         for exit in phase.exits.iter() {
@@ -122,8 +119,8 @@ impl Constants {
         self.press > 0.0
     }
 
-    /// True if the further guard ends the phase before the position `end` does, the lower one for `side` = 1: there it
-    /// is by_velocity x', not below zero on the way out. So a contact that must not pull ends before it is open.
+    /// True if the further guard ends the phase before the position `end` does (`side` = 1 for the lower end, -1 for the
+    /// upper one): a contact that must not pull is released before it is open.
     fn is_released_before(&self, end: f64, side: f64) -> bool {
         let off = self.by_position * end - self.level;
         side * self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
@@ -136,7 +133,7 @@ impl Constants {
         plain || self.has_power_law()
     }
 
-    /// The phases that follow on this one, those on the way to the stop first.
+    /// Indices of the phases that may follow on this one, those on the way to the stop first.
     pub fn successors(&self) -> impl Iterator<Item = usize> {
         let ends = [
             (self.high.is_finite(), self.beyond_high),
@@ -147,7 +144,8 @@ impl Constants {
         real.map(|(_, beyond)| beyond as usize)
     }
 
-    /// The constants of a phase with several ends: of position x itself, not of the distance from one of them.
+    /// These constants with the guards at positions x themselves, as a phase with several ends needs them, not at distances
+    /// from its one end.
     pub fn in_absolute_position(&self) -> Self {
         let mut constants = *self;
         constants.apply_side(self.side);
@@ -156,7 +154,7 @@ impl Constants {
         constants
     }
 
-    /// Multiplies the constants of the steady motion by `side`, -1 for a guard below.
+    /// Multiplies the constants of the steady motion by `side`: 1, or -1 where the guard is below the mass.
     fn apply_side(&mut self, side: f64) {
         for constant in [
             &mut self.cosine,
@@ -172,7 +170,8 @@ impl Constants {
         }
     }
 
-    /// Ends the phase at a surface, on the way `forward` to the stop or on the way back.
+    /// Sets the position, the phase beyond and the impact at a surface that ends the phase; `forward`: it is passed on the
+    /// way to the stop, not back.
     fn end_at(&mut self, phases: &Phases, surface: SurfaceId, forward: bool) {
         let at = &phases[surface];
         let impact = f64::from(u8::from(forward && at.is_clearance));
@@ -189,7 +188,8 @@ impl Constants {
         }
     }
 
-    /// Sets the constants of the linear law; none if it is too stiff or too soft for windows.
+    /// Sets the constants of the equation of motion of a linear phase; none if it is too stiff for windows, or too soft to
+    /// have a static deflection.
     fn set_linear_law(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         let flow = &phase.flow;
         let (cosine, sine) = flow.steady_state()?;
@@ -233,7 +233,7 @@ impl Constants {
         Some(())
     }
 
-    /// Copies the one end of a phase that one position ends into the constants of that guard.
+    /// Copies the position that alone ends a phase into the constants `side`, `edge` and `end`.
     fn set_single_end(&mut self) {
         let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
         if is_low {
@@ -247,8 +247,9 @@ impl Constants {
         }
     }
 
-    /// |x''''| <= |y''''| C + |y'''''| S for the free part y, with the bounds C and S on the fundamental
-    /// solutions over the time `reach`, plus w^4 times the steady amplitude; |v''''| likewise.
+    /// Sets the constants of the bounds on |x''''| and |v''''| over a window. |x''''| <= |y''''| C + |y'''''| S for the free
+    /// part y, with the bounds C and S on the fundamental solutions over the time `reach`, plus w^4 times the steady
+    /// amplitude.
     fn set_bounds(&mut self, modes: &Modes, w: f64, reach: f64) {
         let scale = self.window.powi(4) / 384.0;
         let (c, s) = modes.solution_bounds(reach);
@@ -267,23 +268,24 @@ impl Constants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets the distances from a guard, and the velocities there, below which rounding may decide: the safe engine does. It tells
-    /// rest from a faint bounce by the velocity after the impact before, so velocities after an impact count, too.
+    /// Sets the distance from a guard, and the velocity there, below which rounding may decide, so that the lane is handed to
+    /// the safe engine. That tells rest from a faint bounce by the velocity after the impact before, so velocities after an
+    /// impact count, too.
     fn set_ambiguity(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let size = finite(self.low)
             .max(finite(self.high))
             .max(self.swing + self.offset.abs());
-        self.ambiguity = AMBIGUOUS_DISTANCE * size;
+        self.ambiguity = 1e-10 * size;
         let ends = [(self.low, self.bounce_low), (self.high, self.bounce)].into_iter();
         let walls = ends.filter(|(end, _)| end.is_finite());
         let restitution = walls.fold(1.0, |least: f64, (_, bounce)| least.min(bounce.abs()));
         // Where nothing is left after an impact, all are slow.
-        self.slow = (AMBIGUOUS_SPEED * size * fastest / restitution).min(f64::MAX);
+        self.slow = (1e-5 * size * fastest / restitution).min(f64::MAX);
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
 
-    /// Position and velocity of the steady motion when the drive stands at an angle, cos + i sin.
+    /// Position and velocity of the steady motion at a drive angle, given as cos + i sin.
     pub fn steady_state_at(&self, Complex { re: cos, im: sin }: Complex<f64>) -> Vector2<f64> {
         let p = self.cosine * cos + self.sine * sin;
         let q = self.cosine_rate * cos + self.sine_rate * sin;
@@ -297,18 +299,8 @@ impl Constants {
     }
 }
 
-/// 1/(n (n + 1)) for n from 0; 0 for n = 0.
-const RECIPROCAL_PRODUCTS: [f64; FREE_TERMS] = {
-    let mut table = [0.0; FREE_TERMS];
-    let mut n = 1;
-    while n < FREE_TERMS {
-        table[n] = 1.0 / (n * (n + 1)) as f64;
-        n += 1;
-    }
-    table
-};
-
-/// The polynomial of the free motion from (0, 1), x'' + 2 a x' + b x = 0, term by term.
+/// Coefficients of [`PhaseConstants::response`]: the solution of x'' + 2 a x' + b x = 0 from (0, 1) as a power series in time
+/// over `window`, by its recurrence.
 fn free_response(modes: &Modes, window: f64) -> [f64; FREE_TERMS] {
     let (damping, stiffness) = (
         2.0 * modes.decay * window,
@@ -318,7 +310,7 @@ fn free_response(modes: &Modes, window: f64) -> [f64; FREE_TERMS] {
     for n in 1..FREE_TERMS {
         let before = if n > 1 { terms[n - 2] } else { 0.0 };
         let pull = damping * n as f64 * terms[n - 1] + stiffness * before;
-        terms[n] = -pull * RECIPROCAL_PRODUCTS[n];
+        terms[n] = -pull * (1.0 / (n * (n + 1)) as f64);
     }
     terms
 }

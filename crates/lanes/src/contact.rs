@@ -17,22 +17,19 @@ use pulp::Simd;
 use super::contact_series::{ContactSeries, ContactState};
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
+use super::law::Laws;
 use super::move_lanes::LaneEnd;
 
-/// Eighths of the busy lanes that have to be in power-law contact before these are moved: until then they wait.
+/// How many eighths of the busy lanes have to be in power-law contact before their contacts are computed, all at once; until
+/// then they wait.
 const MIN_EIGHTHS_IN_CONTACT: usize = 7;
 /// Most rounds over all phases for which lanes in contact wait for others.
 const MAX_ROUNDS_WAITED: usize = 6;
-/// Most Taylor steps of a contact in one round over all phases.
+/// Most Taylor steps with which a contact is followed in one round over all phases.
 const MAX_STEPS: usize = 64;
-/// Least time that [`MAX_STEPS`] have to cover, in drive periods: slower contacts are left to the safe engine.
-const MIN_TIME_COVERED: f64 = 1.0 / 16.0;
-/// Time between a release and the end of a period, in drive periods, below which rounding decides which comes first.
-const AMBIGUOUS_TIME: f64 = 1e-12;
 
-/// The way of the lanes through one contact: where each has come to, and whether it still goes on, has left contact,
-/// has arrived at the end of its time, or is to be decided by the safe engine.
+/// Where the lanes have come to in one power-law contact, and which of them go on, have left contact, have arrived at the end
+/// of their time, or are left to the safe engine.
 struct ContactPath<S: Simd, const N: usize> {
     place: ContactState<S, N>,
     /// Length of the last step, in the regularised time sigma.
@@ -44,7 +41,8 @@ struct ContactPath<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves the lanes `active` that are in contact under a power law once most lanes are; the other ones.
+    /// Follows the lanes of `active` that are in power-law contact through it, once most busy lanes are in contact; returns
+    /// the lanes of `active` that are not in contact.
     #[inline(always)]
     pub fn advance_contacts(&mut self, phase: usize, active: Mask<S, N>) -> Mask<S, N> {
         let press = self.laws[phase].press;
@@ -67,8 +65,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         active.and_not(pressed)
     }
 
-    /// Moves the lanes `active`, which are in contact, to the end of it, or to where they have to stop. Returns those
-    /// that came to the end of their job, and those that the safe engine has to take.
+    /// Moves the lanes `active`, which are in contact, to its end or for the time `due`. Returns the lanes that came to the
+    /// end of their job, and those that the safe engine has to take.
     #[inline(always)]
     fn step_through_contact(
         &mut self,
@@ -104,10 +102,11 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let mut steps = 0;
         while path.going.any() && steps < MAX_STEPS {
             power.expand(law, frequency, &path.place);
-            path.step(law, power, due, period * due.like(AMBIGUOUS_TIME));
+            path.step(law, power, due, period * due.like(1e-12));
             steps += 1;
         }
-        let slow = path.going & path.place.time.below(period * due.like(MIN_TIME_COVERED));
+        // Contacts of which MAX_STEPS cover less than a sixteenth of a drive period are left to the safe engine.
+        let slow = path.going & path.place.time.below(period * due.like(1.0 / 16.0));
         let (left, arrived) = (path.left, path.arrived);
         let doubtful = path.doubtful | slow;
         let place = path.place;
@@ -127,12 +126,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 }
 
 impl<S: Simd, const N: usize> ContactPath<S, N> {
-    /// One Taylor step of the lanes that go on, cut at release or at the time `due` (`bridged`: what rounding could
-    /// bridge).
+    /// Makes one Taylor step of the lanes that go on, cut at the release or at the time `due`; a release within `bridged` of
+    /// `due` is too close to tell which comes first.
     #[inline(always)]
     fn step(
         &mut self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         power: &ContactSeries<S, N>,
         due: Lanes<S, N>,
         bridged: Lanes<S, N>,

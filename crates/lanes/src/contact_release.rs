@@ -3,28 +3,27 @@
 
 use pulp::Simd;
 
-use super::contact_series::{ContactSeries, DEGREE, RECIPROCALS, Series};
+use super::contact_series::{ContactSeries, DEGREE, RECIPROCALS, Terms};
 use super::lanes::{Lanes, Mask, Pair};
 
-/// Most halvings of a Taylor step in which the release is not decided; then the safe engine decides.
+/// How often a Taylor step in contact is halved at most until it is decided whether the mass is released in it; then the safe
+/// engine decides.
 const MAX_HALVINGS: usize = 6;
-/// Most steps of Newton's method; then the safe engine finds the release.
+/// Most steps of Newton's method for a zero of a contact's series; then the safe engine takes the lane.
 const MAX_NEWTON_STEPS: usize = 10;
-/// Longest last step of Newton's method, relative to the Taylor step: the next one would be lost in rounding.
-const MAX_LAST_STEP: f64 = 1e-8;
-/// Bound on the rounding of a series' value, relative to its first two terms.
+/// Bound on the rounding of the sum of a contact's series, relative to its first two terms.
 const SUM_ROUNDING: f64 = 1e-14;
 
-/// Whether, and where, lanes leave contact within a step.
-pub(super) struct Release<S: Simd, const N: usize> {
+/// Whether, and after which sigma, lanes leave a power-law contact within a Taylor step.
+pub(super) struct ReleaseSearch<S: Simd, const N: usize> {
     /// Lanes that are decided: they stay in contact up to `sigma`, or leave it there.
     pub decided: Mask<S, N>,
     pub leaves: Mask<S, N>,
     pub sigma: Lanes<S, N>,
 }
 
-/// What the sizes of its terms prove of a polynomial on [0, sigma].
-struct Bounds<S: Simd, const N: usize> {
+/// What the sizes of its terms prove of a series on [0, sigma]: its sign, slope and curvature.
+struct TermBounds<S: Simd, const N: usize> {
     /// Value at sigma.
     end: Lanes<S, N>,
     stays_positive: Mask<S, N>,
@@ -33,12 +32,13 @@ struct Bounds<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> ContactSeries<S, N> {
-    /// Finds whether the lanes `of` leave contact before `sigma`. Steps that cannot be decided are shortened.
+    /// Finds whether the lanes `of` leave contact within the step `sigma`, and where; steps of lanes that cannot be decided
+    /// are halved.
     #[inline(always)]
-    pub fn find_release(&self, sigma: Lanes<S, N>, of: Mask<S, N>) -> Release<S, N> {
+    pub fn find_release(&self, sigma: Lanes<S, N>, of: Mask<S, N>) -> ReleaseSearch<S, N> {
         let zero = sigma.like(0.0);
         let touches = self.root[0].equals(zero);
-        let mut release = Release {
+        let mut release = ReleaseSearch {
             decided: of & self.stays_in_contact(sigma),
             leaves: of.and_not(of),
             sigma,
@@ -77,7 +77,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         release
     }
 
-    /// True where the square root of the deflection is positive up to `sigma`.
+    /// True where the terms of the series prove that the square root of the deflection is positive up to `sigma`.
     #[inline(always)]
     fn stays_in_contact(&self, sigma: Lanes<S, N>) -> Mask<S, N> {
         let zero = sigma.like(0.0);
@@ -92,8 +92,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         margin.below(first) | margin.below(value + first.min(zero))
     }
 
-    /// The sigma at which a time since the beginning of the step has passed, and the lanes in which it was found;
-    /// `sigma`: an upper end, and the time there.
+    /// The sigma at which `time` has passed since the beginning of the step, for steps that a period ends before a release;
+    /// and the lanes in which Newton's method found it. The pair `sigma`: a step that is longer, and its time.
     #[inline(always)]
     pub fn sigma_at_time(
         &self,
@@ -113,7 +113,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         solve_series(&series, time, sigma, share, of)
     }
 
-    /// True where the velocity stays above `level` for a step of length `sigma`.
+    /// True where the terms of the series prove that the velocity towards the stop stays above `level` over a step `sigma`,
+    /// so that the law's force does not change sign.
     #[inline(always)]
     pub fn stays_faster(&self, level: Lanes<S, N>, sigma: Lanes<S, N>) -> Mask<S, N> {
         let mut change = sigma.like(0.0);
@@ -126,11 +127,11 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
     }
 }
 
-/// Solves `series` = `level` by Newton's method in the lanes `of`, within 0 to `sigma`; the lanes in which it
-/// converged.
+/// Solves `series` = `level` by Newton's method in the lanes `of`, from `share` of `sigma` on and within 0 to `sigma`; the
+/// solution, and the lanes in which it converged.
 #[inline(always)]
 fn solve_series<S: Simd, const N: usize>(
-    series: &Series<S, N>,
+    series: &Terms<S, N>,
     level: Lanes<S, N>,
     sigma: Lanes<S, N>,
     share: Lanes<S, N>,
@@ -144,7 +145,8 @@ fn solve_series<S: Simd, const N: usize>(
         let step = (value - level) / rate;
         let next = (at - step).max(zero).min(sigma);
         at = open.choose(next, at);
-        open = open.and_not(step.abs().below(sigma * zero.like(MAX_LAST_STEP)));
+        // After a step of 1e-8 of the Taylor step the next one would be lost in rounding.
+        open = open.and_not(step.abs().below(sigma * zero.like(1e-8)));
         if !open.any() {
             break;
         }
@@ -152,9 +154,9 @@ fn solve_series<S: Simd, const N: usize>(
     (at, of.and_not(open))
 }
 
-/// Value and first derivative of a polynomial.
+/// Value and first derivative of a series at `at`.
 #[inline(always)]
-fn value_and_rate<S: Simd, const N: usize>(series: &Series<S, N>, at: Lanes<S, N>) -> Pair<S, N> {
+fn value_and_rate<S: Simd, const N: usize>(series: &Terms<S, N>, at: Lanes<S, N>) -> Pair<S, N> {
     let mut value = series[DEGREE];
     let mut rate = at.like(0.0);
     for k in (0..DEGREE).rev() {
@@ -164,9 +166,12 @@ fn value_and_rate<S: Simd, const N: usize>(series: &Series<S, N>, at: Lanes<S, N
     (value, rate)
 }
 
-/// What the sizes of its terms prove of a polynomial on [0, sigma].
+/// Bounds a series on [0, sigma] by the sizes of its terms.
 #[inline(always)]
-fn term_bounds<S: Simd, const N: usize>(series: &Series<S, N>, sigma: Lanes<S, N>) -> Bounds<S, N> {
+fn term_bounds<S: Simd, const N: usize>(
+    series: &Terms<S, N>,
+    sigma: Lanes<S, N>,
+) -> TermBounds<S, N> {
     let zero = sigma.like(0.0);
     let (mut tail, mut slopes, mut curves) = (zero, zero, zero);
     for k in (2..=DEGREE).rev() {
@@ -182,7 +187,7 @@ fn term_bounds<S: Simd, const N: usize>(series: &Series<S, N>, sigma: Lanes<S, N
     let square = sigma * sigma;
     let bend = series[2] * square;
     let low = value + first.min(zero);
-    Bounds {
+    TermBounds {
         end: value_and_rate(series, sigma).0,
         stays_positive: tail.mul_add(square, rounding).below(low),
         falls: slopes.mul_add(square, first + rounding).below(zero),

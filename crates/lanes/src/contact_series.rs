@@ -12,11 +12,11 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Law;
+use super::law::Laws;
 
-/// Degree of the series in the regularised time sigma; odd.
+/// Degree of the power series of a contact in the regularised time sigma; odd.
 pub(super) const DEGREE: usize = 25;
-/// 1/n for n from 0 to [`DEGREE`] + 1; 0 for n = 0.
+/// The reciprocals 1/n up to n = [`DEGREE`] + 1; 0 for n = 0.
 pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
     let mut table = [0.0; DEGREE + 2];
     let mut n = 1;
@@ -27,10 +27,10 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
     table
 };
 
-/// Coefficients of a power series in sigma, constant first.
-pub(super) type Series<S, const N: usize> = [Lanes<S, N>; DEGREE + 1];
+/// Coefficients of a power series in sigma in every lane, the constant first.
+pub(super) type Terms<S, const N: usize> = [Lanes<S, N>; DEGREE + 1];
 
-/// The state of a contact in each lane.
+/// State of a power-law contact in every lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactState<S: Simd, const N: usize> {
     /// Square root s of the deflection; velocity towards the stop.
@@ -42,26 +42,26 @@ pub(super) struct ContactState<S: Simd, const N: usize> {
     pub time: Lanes<S, N>,
 }
 
-/// The power series of a step, of the state and of the products that its equation needs.
+/// Power series of one Taylor step of a contact: of its state, and of the products in its equation of motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactSeries<S: Simd, const N: usize> {
     /// Square root s of the deflection, and the deflection D = s^2.
-    pub root: Series<S, N>,
-    depth: Series<S, N>,
+    pub root: Terms<S, N>,
+    depth: Terms<S, N>,
     /// D^2, and the power of D that s D^n = s^j D^m has as one factor: D or D^2.
-    square: Series<S, N>,
-    steep: Series<S, N>,
+    square: Terms<S, N>,
+    steep: Terms<S, N>,
     /// The two factors of the force of suspension and power law, times s: (b s + kappa D) D and so on.
-    springs: Series<S, N>,
-    other: Series<S, N>,
-    pub cos: Series<S, N>,
-    pub sin: Series<S, N>,
-    velocity: Series<S, N>,
+    springs: Terms<S, N>,
+    other: Terms<S, N>,
+    pub cos: Terms<S, N>,
+    pub sin: Terms<S, N>,
+    velocity: Terms<S, N>,
     /// s D^n.
-    pressed: Series<S, N>,
+    pressed: Terms<S, N>,
 }
 
-/// Which exponents the power laws of the lanes have.
+/// Which exponents n the power laws of the lanes have, so that terms that no lane needs are left out.
 struct ContactExponents<S: Simd, const N: usize> {
     /// All are 3/2.
     are_halves_of_three: bool,
@@ -73,7 +73,7 @@ struct ContactExponents<S: Simd, const N: usize> {
 
 impl<S: Simd, const N: usize> ContactExponents<S, N> {
     #[inline(always)]
-    fn of_laws(law: &Law<S, N>) -> Self {
+    fn of_laws(law: &Laws<S, N>) -> Self {
         let zero = law.press.like(0.0);
         let is_half_of_three = law.exponent.equals(zero.like(1.5));
         Self {
@@ -118,9 +118,10 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         }
     }
 
-    /// Computes all series about a state by their recurrence, two orders at a time: a fetch from memory serves both.
+    /// Computes all series about the state `from` by their recurrence, two orders at a time, so that one fetch from memory
+    /// serves both.
     #[inline(always)]
-    pub fn expand(&mut self, law: &Law<S, N>, frequency: Lanes<S, N>, from: &ContactState<S, N>) {
+    pub fn expand(&mut self, law: &Laws<S, N>, frequency: Lanes<S, N>, from: &ContactState<S, N>) {
         let zero = frequency.like(0.0);
         let exponents = ContactExponents::of_laws(law);
         (self.root[0], self.depth[0]) = (from.root, from.root * from.root);
@@ -162,11 +163,12 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         }
     }
 
-    /// Sets the coefficients of order k of the two factors of the springs' force.
+    /// Sets the coefficients of order `k` of the two series whose product is the force of suspension and power law times s:
+    /// `springs` and `other`.
     #[inline(always)]
     fn set_spring_factors(
         &mut self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         exponents: &ContactExponents<S, N>,
         k: usize,
     ) {
@@ -182,8 +184,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         (self.steep[k], self.other[k]) = (steep, other);
     }
 
-    /// Sums of products s_i s_j over i < j, i >= 1, i + j = k + 1 and k + 2, for even k: half of the coefficients of D
-    /// = s^2 of these two orders but for the terms with s_0 and the middle square.
+    /// Sums of s_i s_j over i < j, i >= 1 with i + j = k + 1 and with i + j = k + 2, k even: half of the coefficients of D =
+    /// s^2 of these orders, without the terms with s_0 and the middle square.
     #[inline(always)]
     fn half_square_sums(&self, k: usize) -> [Lanes<S, N>; 2] {
         let mut last = self.root[k + 1];
@@ -197,24 +199,25 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         sums
     }
 
-    /// The k-th coefficient of the product a b: the sum of its inner terms, `inner`, plus a_0 b_k + a_k b_0.
+    /// Coefficient k of the product of two series from the sum `inner` of the products of their coefficients 1 to k - 1: adds
+    /// a_0 b_k + a_k b_0.
     #[inline(always)]
     fn add_ends(
         &self,
-        a: &Series<S, N>,
-        b: &Series<S, N>,
+        a: &Terms<S, N>,
+        b: &Terms<S, N>,
         k: usize,
         inner: Lanes<S, N>,
     ) -> Lanes<S, N> {
         a[0].mul_add(b[k], a[k].mul_add(b[0], inner))
     }
 
-    /// Sets the next coefficients of s, cos and sin from products of order k: s cos, s sin and the force of the
-    /// springs.
+    /// Sets coefficient k + 2 of s and coefficients k + 1 of cos and sin from the products of order k: s cos, s sin and s
+    /// times the force of the springs; `grips`: some law dissipates.
     #[inline(always)]
     fn set_next_coefficients(
         &mut self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         frequency: Lanes<S, N>,
         k: usize,
         [by_cos, by_sin, mut press]: [Lanes<S, N>; 3],
@@ -238,7 +241,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         self.root[k + 2] = after * driven;
     }
 
-    /// The state of the contact after a step of length `sigma` from the place of expansion.
+    /// State of the contact a step `sigma` after the state `from` about which the series are.
     #[inline(always)]
     pub fn state_at(&self, from: &ContactState<S, N>, sigma: Lanes<S, N>) -> ContactState<S, N> {
         let zero = sigma.like(0.0);
@@ -266,9 +269,9 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
     }
 }
 
-/// The k-th coefficient of the product of two series.
+/// Coefficient k of the product of two power series.
 #[inline(always)]
-fn convolve<S: Simd, const N: usize>(a: &Series<S, N>, b: &Series<S, N>, k: usize) -> Lanes<S, N> {
+fn convolve<S: Simd, const N: usize>(a: &Terms<S, N>, b: &Terms<S, N>, k: usize) -> Lanes<S, N> {
     let mut sum = a[0] * b[k];
     for i in 1..=k {
         sum = a[i].mul_add(b[k - i], sum);

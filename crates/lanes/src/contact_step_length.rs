@@ -4,27 +4,22 @@ use pulp::Simd;
 
 use super::contact_series::{ContactSeries, ContactState, DEGREE};
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
+use super::law::Laws;
 
-/// Largest size of the last terms of the velocity at the end of a step, relative to its first terms.
-const MAX_LAST_TERM: f64 = f64::EPSILON / 2.0;
-/// Length of a step as a share of the series' radius of convergence, where its last term is of that size.
-const SHARE_OF_RADIUS: f64 = 0.2;
-/// How many of the last terms are compared: in symmetric cases all but every fifth vanish, or every seventh.
+/// How many of the last terms of a series are compared with its first ones: in symmetric cases all but every fifth vanish, or
+/// every seventh.
 const LAST_TERMS_COMPARED: usize = 7;
-/// Least ratio of [`MAX_LAST_TERM`] to the size of the last terms at a length from which the step is computed at once; at
-/// longer ones the next guess is a shorter length.
+/// Least ratio of the size that the last terms may have to the one that they have at a guessed step length, from which the
+/// step length is computed at once; at longer guesses the next guess is shorter.
 const MIN_RATIO_TO_LAST_TERM: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// Most lengths at which the terms are compared, each within a factor of two of the one before.
+/// Most guesses of a step length, each within a factor of two of the one before.
 const MAX_GUESSES: usize = 64;
-/// Exponent e with which the factor of a step's length, ratio^(1 / (DEGREE - 1)), is (32nd root of the ratio)^e.
-const ROOT_EXPONENT: f64 = 32.0 / (DEGREE - 1) as f64;
 
 impl<S: Simd, const N: usize> ContactState<S, N> {
-    /// The longest step, in sigma, along which the series of drive and suspension converge fast.
+    /// The longest step, in sigma, over which the series of drive and suspension converge fast from this state.
     #[inline(always)]
-    pub fn longest_step(&self, law: &Law<S, N>) -> Lanes<S, N> {
+    pub fn longest_step(&self, law: &Laws<S, N>) -> Lanes<S, N> {
         let four = law.window.like(4.0);
         let by_speed = (law.window * four / self.velocity.abs()).square_root();
         (law.window / self.root).min(by_speed)
@@ -32,8 +27,8 @@ impl<S: Simd, const N: usize> ContactState<S, N> {
 }
 
 impl<S: Simd, const N: usize> ContactSeries<S, N> {
-    /// Length of the step over which the series hold in the lanes `of`, from a guess on; the lanes in which that is
-    /// certain.
+    /// Length, in sigma, of the step over which the series hold to rounding in the lanes `of`, found from a `guess` on; and
+    /// the lanes in which it was found.
     #[inline(always)]
     pub fn step_length(&self, guess: Lanes<S, N>, of: Mask<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let mut reach = guess;
@@ -49,11 +44,13 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         (reach, of.and_not(open))
     }
 
-    /// Length of the step by the sizes of the terms at the length `near`, and the lanes in which that is near enough.
+    /// Step length extrapolated from the sizes of the terms at the length `near`, and the lanes in which `near` is close
+    /// enough for that.
     #[inline(always)]
     fn step_length_judged_at(&self, near: Lanes<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let one = near.like(1.0);
-        let later = one.like(SHARE_OF_RADIUS) / near;
+        // Where the last term is half an ulp, the step is a fifth of the radius of convergence: ratio of two terms there.
+        let later = one.like(0.2) / near;
         let mut last = near.like(0.0);
         for k in DEGREE + 1 - LAST_TERMS_COMPARED..=DEGREE {
             let term = self.root[k].abs() * one.like(k as f64);
@@ -64,7 +61,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         let first = first.max((near + near) * self.root[2].abs());
         let first = first.max(near * near * self.root[3].abs() * one.like(3.0));
         let last = integer_power(near, DEGREE - 1) * last;
-        let room = first * one.like(MAX_LAST_TERM) / last;
+        let room = first * one.like(f64::EPSILON / 2.0) / last;
         let enough = one.like(MIN_RATIO_TO_LAST_TERM).below(room);
         let mut root = room
             .min(one.like(1.0 / MIN_RATIO_TO_LAST_TERM))
@@ -72,10 +69,11 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         for _ in 0..5 {
             root = root.square_root();
         }
-        // The root that is asked for from the 32nd one, by two terms of the binomial series.
+        // The factor room^(1 / (DEGREE - 1)) from the 32nd root, by two terms of the binomial series.
+        let exponent = 32.0 / (DEGREE - 1) as f64;
         let off = root - one;
-        let second = 0.5 * ROOT_EXPONENT * (ROOT_EXPONENT - 1.0);
-        let factor = off.mul_add(off.mul_add(one.like(second), one.like(ROOT_EXPONENT)), one);
+        let second = 0.5 * exponent * (exponent - 1.0);
+        let factor = off.mul_add(off.mul_add(one.like(second), one.like(exponent)), one);
         (near * factor, enough)
     }
 }

@@ -2,28 +2,26 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-/// Excess of the bound g over the spectral radius, as a share of the difference between 1 and that radius.
-const BOUND_EXCESS: f64 = 0.02;
-/// Doublings of the number of terms of the sum that gives the norm, up to 256. Where more would count, the map contracts a
-/// little less in it.
+/// How often the number of terms of the sum that gives the norm is doubled: up to 256. Where more would count, the map
+/// contracts a little less in the norm.
 const SUM_DOUBLINGS: usize = 8;
 
-/// The norm |P y| with the Euclidean length, in which a map shortens every vector.
+/// The norm |P y|, with the Euclidean length, in which a stable linear map shortens every vector.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContractionNorm {
     /// P and its inverse.
     to: Matrix2<f64>,
     pub from: Matrix2<f64>,
     /// Norm of the map.
-    pub rate: f64,
+    rate: f64,
 }
 
 impl ContractionNorm {
-    /// The norm for a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of
-    /// (M'/g)^k (M/g)^k over all k (Stein's equation).
+    /// The norm for a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of (M'/g)^k
+    /// (M/g)^k over all k (Stein's equation).
     pub fn of_map(map: &Matrix2<f64>) -> Option<Self> {
         let radius = spectral_radius(map.trace(), map.determinant());
-        let bound = radius + BOUND_EXCESS * (1.0 - radius);
+        let bound = radius + 0.02 * (1.0 - radius);
         let (mut power, mut sum) = (map / bound, Matrix2::identity());
         for _ in 0..SUM_DOUBLINGS {
             sum += power.transpose() * sum * power;
@@ -35,23 +33,28 @@ impl ContractionNorm {
         (rate < 1.0).then_some(Self { to, from, rate })
     }
 
-    /// The norm of a vector.
+    /// Factor by which the map shortens vectors in the norm, taken for at least 0.25 in bounds on how deviations die out.
+    pub fn rate_bound(&self) -> f64 {
+        self.rate.max(0.25)
+    }
+
+    /// The norm |P y| of a vector.
     pub fn norm_of(&self, vector: &Vector2<f64>) -> f64 {
         (self.to * vector).norm()
     }
 
-    /// The largest norm of vectors with entries of at most these sizes.
+    /// The largest norm |P y| of vectors whose entries have at most the sizes of `entries`.
     pub fn largest_norm(&self, entries: &Vector2<f64>) -> f64 {
         (self.to.abs() * entries).norm()
     }
 
-    /// The largest Euclidean length of a vector of norm 1.
+    /// Bound on the Euclidean length of vectors of norm 1.
     pub fn largest_length(&self) -> f64 {
         self.from.norm()
     }
 }
 
-/// The larger absolute value of the eigenvalues of a 2 x 2 matrix.
+/// The larger absolute value of the two eigenvalues of a 2 x 2 matrix, by its trace and determinant.
 pub(super) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     let half = 0.5 * trace.abs();
     let square = half.mul_add(half, -determinant);
@@ -61,7 +64,7 @@ pub(super) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     }
 }
 
-/// The largest factor by which a matrix lengthens a vector.
+/// The largest singular value of a matrix: the largest factor by which it lengthens a vector.
 fn spectral_norm(matrix: &Matrix2<f64>) -> f64 {
     let (square, area) = (matrix.norm_squared(), matrix.determinant());
     let spread = (square * square - 4.0 * area * area).max(0.0).sqrt();

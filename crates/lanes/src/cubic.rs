@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
 
-/// A cubic on a stretch of time, t in units of it: c(t) = value + t (slope + t (bend + (t - 1) twist)).
+/// A cubic in time over a window, with t in units of the window: value + t (slope + t (bend + (t - 1) twist)).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cubic<S: Simd, const N: usize> {
     pub value: Lanes<S, N>,
@@ -37,7 +37,7 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         t.mul_add(t.mul_add(bend, self.slope), self.value)
     }
 
-    /// The largest value on the stretch.
+    /// The largest value of the cubic over its window.
     #[inline(always)]
     pub fn maximum(&self) -> Lanes<S, N> {
         let Self {
@@ -63,9 +63,9 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
             .max(self.value.max(self.end))
     }
 
-    /// True where every function rises through zero once, near `root`, that is nowhere further from the cubic than
-    /// `error_bound`, and with its slope than 3.08 error bound (Birkhoff and Priver 1967: 384 * 0.00802). Those that
-    /// leave zero at the left end fall there. For the lanes `of`.
+    /// True in the lanes `of` where every function near the cubic rises through zero exactly once, near its zero `root`: a
+    /// function that deviates by at most `error_bound`, and in its slope by 3.08 times that (Birkhoff and Priver 1967: 384 *
+    /// 0.00802). In the lanes `leaves` the function is zero and falling at the left end.
     #[inline(always)]
     pub fn rises_once(
         &self,
@@ -87,13 +87,12 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         if rising.any() {
             // Up, down and up again?
             let winds = zero.below(self.slope.min(self.last_slope)) & middle.below(zero);
-            let near = self
-                .eval(root)
-                .abs()
-                .below(error_bound * one.like(MAX_VALUE_AT_ROOT));
+            let near = self.eval(root).abs().below(error_bound * one.like(0.02));
             let slope = self.slope_at(root);
             let curvature = first.abs().max(curve.abs());
-            let least = slope.mul_add(one.like(RISE_BY_SLOPE), curvature * one.like(RISE_BY_CURVE));
+            // The function may vanish where the cubic is within its error bound: at most 2 error bound / slope from the
+            // root, where its own slope is at least slope - 4 curvature error bound / slope - 3.08 error bound.
+            let least = slope.mul_add(one.like(3.3), curvature * one.like(4.6));
             let steep = (error_bound * least).below(slope * slope) & zero.below(slope);
             let behind = (error_bound * one.like(2.2)).below(slope * (one - root));
             let apart = self.value.below(-error_bound) & near & steep & behind;
@@ -102,7 +101,7 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         rises
     }
 
-    /// The slope of the cubic.
+    /// Derivative of the cubic at t.
     #[inline(always)]
     pub fn slope_at(&self, t: Lanes<S, N>) -> Lanes<S, N> {
         let two = t.like(2.0);
@@ -111,9 +110,9 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         curve + self.slope
     }
 
-    /// About where the cubic rises through zero in the lanes `of`, in units of the stretch: the zero of the parabola
-    /// through the left end and the right value, then a step of Newton's method; where it `leaves` zero at the left
-    /// end, the other zero.
+    /// Where the cubic rises through zero in the lanes `of`, approximately and in units of the window: the zero of the
+    /// parabola through the left end and the right value, then a step of Newton's method. In the lanes `leaves`, where the
+    /// cubic is zero at the left end, its other zero.
     #[inline(always)]
     pub fn guess_rise(&self, leaves: Mask<S, N>, of: Mask<S, N>) -> Lanes<S, N> {
         let Self {
@@ -146,12 +145,3 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         (inside & rising).choose(better, plain)
     }
 }
-
-/// Factor a of the condition slope^2 > error bound (a slope + b curve) for a single rise of the function: it may vanish where
-/// the cubic is within its error bound, at most 2 error bound / slope from the root of the cubic, where its own slope is at
-/// least slope - 4 curve error bound / slope - 3.08 error bound (twice `curve` is the curvature).
-const RISE_BY_SLOPE: f64 = 3.3;
-/// Factor b of that condition.
-const RISE_BY_CURVE: f64 = 4.6;
-/// Largest value of the cubic at the guess of its root, in units of the error bound.
-const MAX_VALUE_AT_ROOT: f64 = 0.02;

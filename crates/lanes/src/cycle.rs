@@ -7,35 +7,29 @@ use std::ops::Range;
 
 use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 
-use super::cycle_state::{CycleState, Derivatives, Drive, Jet, Passage};
+use super::cycle_state::{CycleState, Derivatives, FaceCrossing, Forcing, Jet};
 use super::cycle_windows::CycleWindows;
-use super::face::Face;
-use super::law::{Constants, MIN_WINDOW_SHARE};
+use super::face::PhaseFace;
+use super::law::{MIN_WINDOW_SHARE, PhaseConstants};
 use softstop::internals::Modes;
 
-/// Most windows into which a cycle is divided.
+/// Most windows into which a cycle is divided for the proof.
 const MAX_WINDOWS: usize = 4096;
-/// Longest window of an arc whose spring draws the mass back, in windows of the scan.
-const MAX_WINDOW_LENGTH: f64 = 2.0;
-/// Largest difference between the state at the end of an arc by its linear law and the one that was recorded there,
-/// relative to the size of the motion, with which the arc is used.
+/// Largest difference between the state at the end of an arc by its linear law and the recorded one, relative to the size of
+/// the motion, with which the arc is used.
 const MAX_ARC_MISMATCH: f64 = 1e-9;
 
-/// A passage and cos + i sin of the drive's angle then.
-type Instant<'a> = (&'a Passage, Complex<f64>);
-
-/// An arc with the crossing that ends it. A motion beside the cycle is compared with it at equal times since their own
-/// crossings: it deviates by a state, and by a delay of its crossing, which turns the drive.
+/// An arc of a trial cycle and the crossing that ends it, linearised. A motion beside the cycle is compared with it at equal
+/// times since their own crossings: it deviates by a state, and by a delay of its crossing, which turns the drive.
 #[derive(Debug)]
 pub(super) struct CycleArc {
     phase: usize,
-    /// The cycle at its start and cos + i sin of the drive angle, its length in s, the faces at which it begins and
-    /// ends.
+    /// The cycle at its start and cos + i sin of the drive angle, its length in s, the faces at which it begins and ends.
     start: CycleState,
     angle: Complex<f64>,
     duration: f64,
-    entry: Face,
-    exit: Face,
+    entry: PhaseFace,
+    exit: PhaseFace,
     modes: Modes,
     /// Range of the windows of the arc among those of the cycle.
     pub windows: Range<usize>,
@@ -59,7 +53,8 @@ pub(super) struct CycleArc {
     pub delay: RowVector2<f64>,
 }
 
-/// A cycle with its derivatives by the return that it begins with: velocity over a velocity, drive angle.
+/// A trial cycle from impact to impact, with its derivatives by the return that it begins with: velocity in units of the
+/// first return's, drive angle.
 #[derive(Debug, Default)]
 pub(super) struct Cycle {
     pub arcs: Vec<CycleArc>,
@@ -71,13 +66,13 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// Linearises the cycle from the return `from` through all `passages`, velocities in units of `velocity`; none if
-    /// a law is not linear or a crossing not transversal.
+    /// Linearises the cycle from the impact `from` through all crossings `passages`, velocities in units of `velocity`: sets
+    /// the arcs and the derivative of the next return. None if a law is not linear or a crossing not transversal.
     pub fn linearise(
         &mut self,
-        laws: &[Constants],
-        drive: &Drive,
-        (from, passages): (Passage, &[Passage]),
+        laws: &[PhaseConstants],
+        drive: &Forcing,
+        (from, passages): (FaceCrossing, &[FaceCrossing]),
         velocity: f64,
     ) -> Option<()> {
         self.arcs.clear();
@@ -89,7 +84,7 @@ impl Cycle {
         let mut angle = drive.angle_at(at.offset);
         for passage in passages {
             let turned = drive.angle_at(passage.offset);
-            let between = ((&at, angle), (passage, turned));
+            let between = [(&at, angle), (passage, turned)];
             self.add_arc(&laws[at.phase], drive, between, (&state, &delay))?;
             let arc = self.arcs.last()?;
             angle = turned;
@@ -109,13 +104,13 @@ impl Cycle {
         (is_finite && !self.arcs.is_empty()).then_some(())
     }
 
-    /// Adds the arc from a passage to the next, each with cos + i sin of the drive angle there, with the derivatives
-    /// of state and delay at its start; none as for the whole cycle.
+    /// Adds the arc between two crossings, each with cos + i sin of the drive angle then, and the derivatives of state and
+    /// delay at its start; none if its law is not linear or the crossing that ends it not transversal.
     fn add_arc(
         &mut self,
-        law: &Constants,
-        drive: &Drive,
-        ((from, angle), (to, turned)): (Instant, Instant),
+        law: &PhaseConstants,
+        drive: &Forcing,
+        [(from, angle), (to, turned)]: [(&FaceCrossing, Complex<f64>); 2],
         (state, delay): (&Matrix2<f64>, &RowVector2<f64>),
     ) -> Option<()> {
         let duration = (from.left - to.left) * drive.period + (to.offset - from.offset);
@@ -168,8 +163,9 @@ impl Cycle {
         Some(())
     }
 
-    /// Divides the arcs into windows that show how far other motions may deviate; none if that takes too many.
-    pub fn divide_into_windows(&mut self, laws: &[Constants], drive: &Drive) -> Option<()> {
+    /// Divides the arcs into windows that show how far other motions may deviate from the cycle without meeting another face;
+    /// none if that takes too many windows.
+    pub fn divide_into_windows(&mut self, laws: &[PhaseConstants], drive: &Forcing) -> Option<()> {
         for arc in &mut self.arcs {
             let first = self.windows.all.len();
             arc.divide_arc(&laws[arc.phase], drive, &mut self.windows)?;
@@ -179,8 +175,9 @@ impl Cycle {
     }
 }
 
-/// What rounding may change of a state: one unit in the last place of each of its terms and of the time.
-fn state_rounding(law: &Constants, place: &CycleState, period: f64) -> Vector2<f64> {
+/// Bound on the rounding of position and velocity of a cycle at one instant: one unit in the last place of each of their
+/// terms and of the time.
+fn state_rounding(law: &PhaseConstants, place: &CycleState, period: f64) -> Vector2<f64> {
     let [x, v, a, _] = place.jet.map(f64::abs);
     let free = place.free.abs();
     let steady = Vector2::new(law.swing + law.offset.abs(), place.steady_rate.x.abs());
@@ -188,7 +185,7 @@ fn state_rounding(law: &Constants, place: &CycleState, period: f64) -> Vector2<f
 }
 
 impl CycleArc {
-    /// The derivatives of the state at an instant of the arc, with the transition up to there.
+    /// The derivatives of the state at an instant of the arc, by the transition matrix of the free motion up to it.
     fn derivatives_at(&self, transition: Matrix2<f64>, place: &CycleState) -> Derivatives {
         let response = place.steady_rate - transition * self.start.steady_rate;
         Derivatives {
@@ -198,13 +195,16 @@ impl CycleArc {
         }
     }
 
-    /// Adds the windows of the arc; those in which a bound does not suffice are halved.
-    fn divide_arc(&self, law: &Constants, drive: &Drive, windows: &mut CycleWindows) -> Option<()> {
-        let longest = if law.stiffness < 0.0 {
-            MAX_WINDOW_LENGTH
-        } else {
-            1.0
-        };
+    /// Adds the windows of the arc to `windows`, halved where the cycle is not proven clear of other faces; none if they
+    /// become too short or too many.
+    fn divide_arc(
+        &self,
+        law: &PhaseConstants,
+        drive: &Forcing,
+        windows: &mut CycleWindows,
+    ) -> Option<()> {
+        // In windows of the scan: longer ones where the spring draws the mass back.
+        let longest = if law.stiffness < 0.0 { 2.0 } else { 1.0 };
         let count = (self.duration * law.per_window / longest).ceil();
         let whole = self.duration / count.max(1.0);
         let (mut here, mut transition) = (self.start, Matrix2::identity());
@@ -239,8 +239,8 @@ impl CycleArc {
         Some(())
     }
 
-    /// Transition matrix of the free motion, and cos + i sin by which the drive turns, over a step.
-    fn step_propagators(&self, drive: &Drive, step: f64) -> (Matrix2<f64>, Complex<f64>) {
+    /// Transition matrix of the free motion over a step, and cos + i sin of the angle by which the drive turns in it.
+    fn step_propagators(&self, drive: &Forcing, step: f64) -> (Matrix2<f64>, Complex<f64>) {
         let turn = Complex::cis(drive.frequency * step);
         (self.modes.transition(step), turn)
     }

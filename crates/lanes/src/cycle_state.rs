@@ -2,11 +2,11 @@
 
 use nalgebra::{Complex, Matrix2, Vector2};
 
-use super::law::Constants;
+use super::law::PhaseConstants;
 
-/// A crossing of a face that a cycle makes.
+/// A recorded crossing of a face by a trial cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Passage {
+pub(super) struct FaceCrossing {
     pub position: f64,
     /// Velocities before and after it.
     pub velocity: f64,
@@ -18,19 +18,19 @@ pub(super) struct Passage {
     pub offset: f64,
 }
 
-/// The drive of a machine.
+/// Frequency, period and initial angle of the drive of the machine of a trial cycle.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Drive {
+pub(super) struct Forcing {
     pub frequency: f64,
     pub period: f64,
     /// cos + i sin of its angle at the beginning of a period.
     pub begin: Complex<f64>,
 }
 
-/// Position, velocity, acceleration and jerk.
+/// Position, velocity, acceleration and jerk at one instant.
 pub(super) type Jet = [f64; 4];
 
-/// A cycle at one instant of one phase.
+/// The state of a trial cycle at one instant: its motion with derivatives, split into free and steady part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CycleState {
     /// Position, velocity, acceleration and jerk.
@@ -41,8 +41,9 @@ pub(super) struct CycleState {
     pub steady_rate: Vector2<f64>,
 }
 
-/// Derivatives of the state of a cycle at one instant: by the state at the start of its arc, by the delay of the
-/// crossing that began the arc, and by velocity and drive angle of the impact that the cycle begins with.
+/// Derivatives of the state of a trial cycle at one instant: by the state at the start of its arc (`transition`), by the
+/// delay of the crossing that began the arc (`response`), and by velocity and drive angle of the impact that the cycle begins
+/// with (`tangent`).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Derivatives {
     pub transition: Matrix2<f64>,
@@ -50,22 +51,27 @@ pub(super) struct Derivatives {
     pub tangent: Matrix2<f64>,
 }
 
-impl Drive {
-    /// cos + i sin of the drive angle so many seconds into a period.
+impl Forcing {
+    /// cos + i sin of the drive angle `offset` seconds into a period.
     pub fn angle_at(&self, offset: f64) -> Complex<f64> {
         self.begin * Complex::cis(self.frequency * offset)
     }
 }
 
-impl Constants {
-    /// The state of a cycle in this phase at position x and velocity v, when the drive stands at `angle`, cos + i sin.
-    pub fn state_at(&self, drive: &Drive, (x, v): (f64, f64), angle: Complex<f64>) -> CycleState {
+impl PhaseConstants {
+    /// The state of a trial cycle in this phase at position x and velocity v, when the drive stands at `angle`, cos + i sin.
+    pub fn state_at(&self, drive: &Forcing, (x, v): (f64, f64), angle: Complex<f64>) -> CycleState {
         let steady = self.steady_state_at(angle);
         self.state_of(drive, Vector2::new(x - self.offset, v) - steady, steady)
     }
 
-    /// The state of a cycle in this phase from its free and its steady part, positions and velocities.
-    pub fn state_of(&self, drive: &Drive, free: Vector2<f64>, steady: Vector2<f64>) -> CycleState {
+    /// The state of a trial cycle in this phase from position and velocity of its free and of its steady part.
+    pub fn state_of(
+        &self,
+        drive: &Forcing,
+        free: Vector2<f64>,
+        steady: Vector2<f64>,
+    ) -> CycleState {
         let square = drive.frequency * drive.frequency;
         let second = self.stiffness * free.x + self.damping * free.y;
         let third = self.stiffness * free.y + self.damping * second;

@@ -5,16 +5,14 @@ use std::ops::Range;
 use nalgebra::Vector4;
 
 use super::cycle_state::{CycleState, Derivatives};
-use super::face::Face;
-use super::law::{Constants, WINDOW_ANGLE};
+use super::face::PhaseFace;
+use super::law::{PhaseConstants, WINDOW_ANGLE};
 
 /// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the
-/// error M h^4 / 384 of its value, M the largest fourth derivative (Birkhoff and Priver 1967).
+/// error M h^4 / 384 of its value; M: largest fourth derivative (Birkhoff and Priver 1967).
 const RATE_ERROR: f64 = 384.0 * 0.008_018_753_738_744_818;
-/// Error M h^2 / 12 of the second derivative of that interpolant, times h^2, in units of the error of its value.
-const SECOND_DERIVATIVE_ERROR: f64 = 384.0 / 12.0;
 
-/// The windows of a cycle, one after another.
+/// The windows into which a trial cycle is divided, one after another, with the margins of the faces in each.
 #[derive(Debug, Default)]
 pub(super) struct CycleWindows {
     pub all: Vec<CycleWindow>,
@@ -22,7 +20,7 @@ pub(super) struct CycleWindows {
     margins: Vec<WindowMargin>,
 }
 
-/// A window of an arc.
+/// A window of an arc of a trial cycle.
 #[derive(Debug)]
 pub(super) struct CycleWindow {
     /// Derivatives of the state at its start.
@@ -33,8 +31,8 @@ pub(super) struct CycleWindow {
     margins: Range<usize>,
 }
 
-/// The margin of a face in a window: largest deviations of its value, rate and second derivative with which it is
-/// provably not met, or at the end of an arc not before that end.
+/// The margin of a face in a window of a trial cycle: how far value, rate and second derivative of the face's function may
+/// deviate for the face to be provably not met, or at the end of an arc not before that end.
 #[derive(Debug, Clone, Copy)]
 struct WindowMargin {
     /// Weights of position and velocity.
@@ -42,8 +40,8 @@ struct WindowMargin {
     velocity: f64,
     /// Largest deviation of the value where the whole window is far from the face.
     clear: f64,
-    /// Largest deviation of the value where only both ends are far from it: then the rate must keep its sign, or the
-    /// value be convex, which holds up to these deviations of the rate and of the second derivative.
+    /// Largest deviation of the value where only both ends are far from it: then the rate must keep its sign, or the value be
+    /// convex, which holds up to these deviations of the rate and of the second derivative.
     ends: f64,
     slope: f64,
     convex: f64,
@@ -55,14 +53,14 @@ impl CycleWindows {
         self.margins.clear();
     }
 
-    /// Adds the window between two states of an arc, with the faces by which the arc begins and ends in it; false if
-    /// the cycle itself is not proven to stay clear of the other faces.
+    /// Adds the window between two states of an arc, with the faces at which the arc begins or ends in it; false if the cycle
+    /// itself is not proven to stay clear of the other faces.
     pub fn add_window(
         &mut self,
-        law: &Constants,
+        law: &PhaseConstants,
         (from, to): (&CycleState, &CycleState),
         step: f64,
-        (entry, exit): (Option<Face>, Option<Face>),
+        (entry, exit): (Option<PhaseFace>, Option<PhaseFace>),
         at_start: Derivatives,
     ) -> bool {
         let share = step * law.per_window;
@@ -76,7 +74,7 @@ impl CycleWindows {
         let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
         let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs() * longer;
         let rate_error_bound = scale * (law.rate_steady + rate_fifth + rate_sixth);
-        let margin = |face: Face| {
+        let margin = |face: PhaseFace| {
             let error_bound =
                 face.position.abs() * error_bound + face.velocity.abs() * rate_error_bound;
             let ambiguity = match face.velocity {
@@ -97,12 +95,7 @@ impl CycleWindows {
         let within_reach = faces.filter(|face| face.level < f64::INFINITY);
         let first = self.margins.len();
         self.margins.extend(within_reach.map(margin));
-        let margins = first..self.margins.len();
-        if !self.tolerates_deviation(&margins, &Vector4::zeros()) {
-            self.margins.truncate(first);
-            return false;
-        }
-        self.all.push(CycleWindow {
+        let window = CycleWindow {
             at_start,
             step,
             growth: if law.stiffness < 0.0 {
@@ -110,31 +103,34 @@ impl CycleWindows {
             } else {
                 WINDOW_ANGLE.exp()
             },
-            margins,
-        });
-        true
+            margins: first..self.margins.len(),
+        };
+        let is_clear = self.is_clear(&window, &Vector4::zeros());
+        if is_clear {
+            self.all.push(window);
+        } else {
+            self.margins.truncate(first);
+        }
+        is_clear
     }
 
-    /// True if no motion meets another face in a window whose position and its derivatives deviate by no more than this.
+    /// True if no motion meets another face in a window whose position, velocity, acceleration and jerk deviate from the
+    /// cycle by no more than `most`.
     pub fn is_clear(&self, window: &CycleWindow, most: &Vector4<f64>) -> bool {
-        self.tolerates_deviation(&window.margins, most)
-    }
-
-    fn tolerates_deviation(&self, margins: &Range<usize>, most: &Vector4<f64>) -> bool {
-        let mut margins = self.margins[margins.clone()].iter();
+        let mut margins = self.margins[window.margins.clone()].iter();
         margins.all(|margin| margin.tolerates_deviation(most))
     }
 }
 
 impl WindowMargin {
     fn of_face(
-        face: &Face,
+        face: &PhaseFace,
         (from, to): (&CycleState, &CycleState),
         step: f64,
         (error_bound, ambiguity): (f64, f64),
         (is_entry, is_exit): (bool, bool),
     ) -> Self {
-        let Face {
+        let PhaseFace {
             position,
             velocity,
             level,
@@ -175,7 +171,8 @@ impl WindowMargin {
             margin.slope = d0.min(d1).min(d2) - RATE_ERROR * error_bound / step;
         }
         let second = (d1 - d0).min(d2 - d1) * 2.0 / step;
-        margin.convex = second - SECOND_DERIVATIVE_ERROR * error_bound / (step * step);
+        // The second derivative of the cubic is off by M h^2 / 12 at most.
+        margin.convex = second - 384.0 / 12.0 * error_bound / (step * step);
         margin
     }
 

@@ -3,21 +3,20 @@
 use pulp::Simd;
 
 use super::engine::Engine;
-use super::guard::Guard;
-use super::guard_search::Found;
+use super::guard::WindowGuard;
+use super::guard_search::SearchResult;
 use super::lanes::{Lanes, Mask};
-use super::law::{Law, MIN_WINDOW_SHARE};
+use super::law::MIN_WINDOW_SHARE;
 use super::move_lanes::LaneEnd;
-use super::parts::Parts;
 use super::scan::ScanResult;
-use super::window_ahead::WindowAhead;
 
-/// Shortest time that is decided at once, in windows: less that is left of a period is taken for this long.
+/// Shortest time that lanes decide at once, in windows: where less is left of a period it is taken for this long.
 const MIN_DECIDED_SPAN: f64 = 1e-12;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Decides the window ahead of the lanes that the scan has stopped, and moves all `active` ones on, none longer
-    /// than `due`; those that came to the end of their job, and those that the safe engine has to take.
+    /// Decides for each lane that the scan has stopped whether its guard rises through zero in the window ahead, and moves
+    /// all `active` lanes to the crossing or on, none longer than `due`. Returns the lanes that came to the end of their job,
+    /// and those that the safe engine has to take.
     #[inline(always)]
     pub fn decide_window<const HAS_OTHER_ENDS: bool>(
         &mut self,
@@ -35,7 +34,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             .min(remaining)
             .max(least);
         let ahead = self.window_ahead(law, reached, pending, span);
-        let guard = Guard::of_window::<HAS_OTHER_ENDS>(law, &ahead, reached.error_bound);
+        let guard = WindowGuard::of_window::<HAS_OTHER_ENDS>(law, &ahead, reached.error_bound);
         let found = guard.search_window::<HAS_OTHER_ENDS>(law, &ahead, pending);
         let (hits, doubtful) =
             self.move_to_decision::<HAS_OTHER_ENDS>(phase, active, &guard, &found, scanned);
@@ -45,45 +44,15 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         (self.end_periods(arrived), doubtful)
     }
 
-    /// The window ahead of all lanes, of which the lanes `pending` decide the first `span` seconds.
-    #[inline(always)]
-    fn window_ahead(
-        &self,
-        law: &Law<S, N>,
-        reached: &ScanResult<S, N>,
-        pending: Mask<S, N>,
-        span: Lanes<S, N>,
-    ) -> WindowAhead<S, N> {
-        let frequency = self.state.drive.frequency;
-        let here = reached.parts;
-        let next = reached.next;
-        let (mut there, mut scale) = (next, span.like(1.0));
-        let part = pending & span.below(law.window);
-        if part.any() {
-            let at = here.within_window(law, frequency, &next, part.choose(span, law.window));
-            there = Parts::choose(part, &at, &next);
-            let share = span * law.per_window;
-            let square = share * share;
-            scale = part.choose(square * square, scale);
-        }
-        WindowAhead {
-            frequency,
-            here,
-            there,
-            next,
-            span,
-            scale,
-        }
-    }
-
-    /// Moves the active lanes to the end of the window or to their crossing; those that cross, and the doubtful ones.
+    /// Moves the active lanes to the end of their window or to their crossing; returns those that cross, and those that the
+    /// safe engine has to take.
     #[inline(always)]
     fn move_to_decision<const HAS_OTHER_ENDS: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
-        guard: &Guard<S, N>,
-        found: &Found<S, N>,
+        guard: &WindowGuard<S, N>,
+        found: &SearchResult<S, N>,
         scanned: Lanes<S, N>,
     ) -> (Mask<S, N>, Mask<S, N>) {
         let law = &self.laws[phase];
@@ -127,7 +96,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         (hits, doubtful)
     }
 
-    /// Shares of a window that the active lanes decide next: half of that which could not be decided.
+    /// The share of a window that each active lane decides next: all of it, or half of the share that could not be decided.
     #[inline(always)]
     fn next_shares(&self, active: Mask<S, N>, undecided: Mask<S, N>) -> Lanes<S, N> {
         let share = self.state.window_fraction;

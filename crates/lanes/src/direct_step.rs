@@ -6,7 +6,7 @@ use pulp::Simd;
 use super::engine::Engine;
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Law;
+use super::law::Laws;
 use super::local_taylor;
 use super::move_lanes::LaneEnd;
 use super::nearby_zero::nearby_zero;
@@ -14,10 +14,11 @@ use super::parts::Parts;
 use super::scan::LEAVING_MARGIN;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 
-/// Least time between a crossing and the end of the period or job, in windows: more than rounding could bridge.
+/// Least time between the crossing of a direct step and the end of the period or job, in windows: more than rounding could
+/// bridge.
 const MIN_TIME_TO_END: f64 = 1e-4;
 
-/// The way of each lane to the end of its phase.
+/// Where a direct step would take each lane: the surface and the time at which its phase ends.
 struct DirectPath<S: Simd, const N: usize> {
     /// Lanes that move upwards, and lanes that start from rest.
     up: Mask<S, N>,
@@ -31,8 +32,8 @@ struct DirectPath<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves the lanes to the end of their phase whose velocity provably keeps its sign up to there, and that meet no
-    /// further guard before. Returns those that are left.
+    /// Moves the lanes to the end of their phase in one step where their velocity provably keeps its sign up to there and
+    /// they meet no further guard before; returns the lanes that are not moved.
     #[inline(always)]
     pub fn direct_step(
         &mut self,
@@ -98,9 +99,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         active.and_not(hits)
     }
 
-    /// The way of the lanes if their acceleration changed at a constant rate.
+    /// Predicts where the lanes leave their phase, by the Taylor series of the position up to the snap.
     #[inline(always)]
-    fn direct_path(&self, law: &Law<S, N>, here: &Parts<S, N>) -> DirectPath<S, N> {
+    fn direct_path(&self, law: &Laws<S, N>, here: &Parts<S, N>) -> DirectPath<S, N> {
         let (x, v) = (self.state.x, self.state.v);
         let frequency = self.state.drive.frequency;
         let (zero, half) = (x.like(0.0), x.like(0.5));
@@ -140,12 +141,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 }
 
 impl<S: Simd, const N: usize> DirectPath<S, N> {
-    /// True where the velocity keeps its sign for `time`, by its values and rates at both `ends`, and no further guard
-    /// is met.
+    /// True where the velocity keeps its sign for `time`, by its values and rates at both `ends`, and the further guard is
+    /// not met.
     #[inline(always)]
     fn keeps_direction(
         &self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         here: &Parts<S, N>,
         time: Lanes<S, N>,
         ends: [Pair<S, N>; 2],
@@ -179,7 +180,7 @@ impl<S: Simd, const N: usize> DirectPath<S, N> {
     }
 }
 
-/// value + time (first + time (second + time third)).
+/// Value of a cubic at a time: value + time (first + time (second + time third)).
 #[inline(always)]
 fn cubic_value<S: Simd, const N: usize>(
     value: Lanes<S, N>,

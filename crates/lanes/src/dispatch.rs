@@ -3,14 +3,14 @@
 use pulp::{Simd, WithSimd};
 
 use super::engine::Engine;
-use super::machine::LoweredMachine;
-use super::machine::{Instructions, Job, Outcome, Task};
+use super::machine::{Instructions, Job, LoweredMachine, Outcome, Task};
 use super::observer::{BatchObserver, ObserverHandle};
 
-/// Vector registers over which the lanes of one batch are spread.
+/// Number of vector registers over which the lanes of one batch are spread: while an operation on one waits, the other goes
+/// on.
 pub(super) const REGISTERS_PER_BATCH: usize = 2;
 
-/// Follows all jobs with the instruction set asked for, or the widest below it.
+/// Follows all jobs with the instruction set asked for, or the widest below it that the processor has.
 pub(super) fn run_jobs<'a>(
     machines: &'a [LoweredMachine],
     jobs: &'a [Job],
@@ -26,13 +26,13 @@ pub(super) fn run_jobs<'a>(
     run_task(task, instructions)
 }
 
-/// Does a task in the registers of a batch.
+/// Runs a task with lanes in [`REGISTERS_PER_BATCH`] registers.
 fn run_task(task: Task, instructions: Instructions) -> Vec<Outcome> {
     dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions)
 }
 
-/// Does a task with an instruction set, or the widest below it that the processor has. Each is the whole engine
-/// once more, so none is compiled twice.
+/// Runs a task with an instruction set, or the widest below it that the processor has. Each set is the whole engine once
+/// more, so none is compiled twice.
 pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
     vectorize(task, instructions).unwrap_or_else(|task| Simd::vectorize(pulp::Scalar, task))
 }
@@ -65,8 +65,8 @@ fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Outp
     }
 }
 
-/// Follows jobs one after another, in a single register where registers are wide. It is generic so that the engine
-/// for one register is compiled where it is called.
+/// Follows jobs one after another, in a single register where registers are wide. It is generic so that the engine for one
+/// register is compiled where it is called.
 pub(super) fn run_one_by_one<W: BatchObserver>(
     machines: &[LoweredMachine],
     jobs: &[Job],
@@ -85,7 +85,7 @@ pub(super) fn run_one_by_one<W: BatchObserver>(
     run_task(task, Instructions::Portable)
 }
 
-/// A task in N registers abreast.
+/// A task to run with lanes in N registers.
 struct Batch<'a, const N: usize>(Task<'a>);
 
 impl<const N: usize> WithSimd for Batch<'_, N> {

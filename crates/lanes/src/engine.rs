@@ -27,38 +27,36 @@ use pulp::Simd;
 
 use super::contact_series::ContactSeries;
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
-use super::machine::LoweredMachine;
-use super::machine::{Job, Outcome, Task};
-use super::phase_order::PhaseGraph;
-use super::phase_order::phase_order;
-use super::returns::Returns;
+use super::law::Laws;
+use super::machine::{Job, LoweredMachine, Outcome, Task};
+use super::phase_order::{PhaseGraph, phase_order};
+use super::returns::ReturnHistory;
 use super::safe_engine::{self, Resumed, SafeStart};
-use super::state::State;
+use super::state::LaneStates;
 use softstop::Start;
 
-/// Rounds over all phases after which their work is counted and overdue trials end.
+/// Number of rounds over all phases after which their work is counted and overdue trial cycles are ended.
 const ROUNDS_PER_COUNT: usize = 16;
-/// Work of these rounds, in scan windows.
+/// Work of [`ROUNDS_PER_COUNT`] rounds, in scan windows.
 const WORK_PER_COUNT: u64 = 1 << 10;
-/// Index of the free phase: with several ends, it lies between two stops.
+/// Index of the phase without contact; where it has several ends, it lies between two stops.
 const FREE_PHASE: usize = 0;
 
-/// The lanes, the laws of their machines, and the jobs.
+/// The lock-step loop over all lanes: their states, the laws of their machines, and the jobs and outcomes.
 pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub task: Task<'a>,
-    pub laws: Vec<Law<S, N>>,
+    pub laws: Vec<Laws<S, N>>,
     /// Phases that several things end in some machine.
     guarded: Vec<bool>,
     /// Phases that have a power law in some machine.
     presses: Vec<bool>,
     /// The phases in the order in which a round visits them.
     order: Vec<usize>,
-    pub state: State<S, N>,
+    pub state: LaneStates<S, N>,
     /// The series of contacts under a power law, where there are any.
     pub power: Option<Box<ContactSeries<S, N>>>,
     /// The returns of each lane to its impacts.
-    pub returns: Vec<Returns>,
+    pub returns: Vec<ReturnHistory>,
     /// Number of lanes that follow a trial cycle.
     pub trials: usize,
     /// Rounds that lanes in contact have waited.
@@ -96,13 +94,13 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             leapt: 0,
             error: None,
         });
-        let returns = (0..Lanes::<S, N>::COUNT).map(|_| Returns::default());
+        let returns = (0..Lanes::<S, N>::COUNT).map(|_| ReturnHistory::default());
         Self {
-            laws: vec![Law::new(simd); most],
+            laws: vec![Laws::new(simd); most],
             guarded: (0..most).map(guarded).collect(),
             presses,
             order: phase_order(&outlines, most),
-            state: State::idle(simd),
+            state: LaneStates::idle(simd),
             power: is_any.then(|| Box::new(ContactSeries::new(simd))),
             returns: returns.collect(),
             trials: 0,
@@ -155,7 +153,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.outcomes
     }
 
-    /// Gives lanes whose job has ended the next one, and hands doubtful ones to the safe engine.
+    /// Gives lanes whose job has `ended` the next job, and hands `doubtful` ones, which rounding could decide, to the safe
+    /// engine.
     pub fn serve_lanes(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             let (ended, doubtful) = (ended.get(lane), doubtful.get(lane));
@@ -170,10 +169,10 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
     }
 
-    /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
+    /// Time in s for which each lane may move on: to the end of its job or, if periods are observed, of the drive period.
     #[inline(always)]
     pub fn time_to_stop(&self) -> Lanes<S, N> {
-        let State {
+        let LaneStates {
             left,
             offset,
             drive,
@@ -187,8 +186,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         periods.mul_add(drive.period, -offset)
     }
 
-    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows. `HAS_OTHER_ENDS`:
-    /// something else than one position may end it.
+    /// Moves the lanes that are in a phase to its end, or as far as they come in a few windows. `HAS_OTHER_ENDS`: the phase
+    /// may end at something else than one position.
     #[inline(always)]
     fn step_phase<const HAS_OTHER_ENDS: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let due = self.time_to_stop();
@@ -208,7 +207,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             self.scan_windows::<HAS_OTHER_ENDS>(law, active, due * law.per_window)
         };
         if !HAS_OTHER_ENDS || between {
-            self.skip_calm_periods::<HAS_OTHER_ENDS>(phase, active, &mut reached);
+            self.skip_contactless_periods::<HAS_OTHER_ENDS>(phase, active, &mut reached);
         }
         let (ended, doubtful) = self.decide_window::<HAS_OTHER_ENDS>(phase, active, &reached, due);
         if (ended | doubtful).any() {
@@ -216,18 +215,18 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
     }
 
-    /// The job of a lane and how many of its periods are complete.
+    /// The index of a lane's job, and how many of its drive periods are complete.
     pub fn job_progress(&self, lane: usize) -> Option<(usize, u64)> {
         self.job_progress_with(lane, self.state.left.get(lane))
     }
 
-    /// The job of a lane and how many of its periods are complete when `left` are left.
+    /// The index of a lane's job, and how many of its drive periods are complete when `left` of them are left.
     pub fn job_progress_with(&self, lane: usize, left: f64) -> Option<(usize, u64)> {
         let job = self.lanes[lane]?;
         Some((job, self.task.jobs[job].periods - left as u64))
     }
 
-    /// Puts the next job into a lane.
+    /// Puts the next job that can be followed into a lane, or leaves the lane idle.
     fn take_next(&mut self, lane: usize) {
         self.lanes[lane] = None;
         self.state.end_job(lane);
@@ -271,7 +270,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.installed[lane].map(|index| &self.task.machines[index])
     }
 
-    /// Gives a lane the laws of a job's machine.
+    /// Gives a lane the laws and the drive of a job's machine.
     fn install_laws(&mut self, lane: usize, job: usize) {
         let index = self.task.jobs[job].machine;
         self.lanes[lane] = Some(job);
@@ -289,7 +288,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.state.set_drive(lane, machine);
     }
 
-    /// Lets a lane go on with a job from the beginning of a drive period.
+    /// Lets a lane go on with a job in the state in which the safe engine has left it, at the beginning of a drive period.
     fn resume_job(&mut self, lane: usize, job: usize, resumed: &Resumed) {
         let periods = self.task.jobs[job].periods;
         self.state.periods.set(lane, periods as f64);
@@ -299,7 +298,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.begin_recording(lane);
     }
 
-    /// Lets the safe engine follow a job to where it can go on in a lane; none if it comes to its end before.
+    /// Lets the safe engine follow a job to where it can go on in a lane; none if the job ends before.
     fn follow_safely(&mut self, place: SafeStart) -> Option<Resumed> {
         let Job {
             machine, periods, ..
@@ -315,7 +314,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
     }
 
-    /// Hands a lane to the safe engine for the rest of the period.
+    /// Hands the motion of a lane to the safe engine for the rest of the drive period, or until lanes can follow it.
     fn hand_over(&mut self, lane: usize) {
         let Some((job, cycle)) = self.job_progress(lane) else {
             return;
@@ -340,8 +339,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
     }
 
-    /// The state of a lane, on its own side of the ends of its phase: one that rounding has put onto an end is put
-    /// beside it, or the safe engine would take the crossing for done.
+    /// The state of a lane with the position moved back inside its phase where rounding has put it onto an end of it: there
+    /// the safe engine would take the crossing for done.
     fn state_within_phase(&self, lane: usize) -> Start {
         let Start { position, velocity } = self.state.position_and_velocity(lane);
         let law = &self.laws[self.state.phase.get(lane) as usize];
@@ -355,7 +354,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         Start { position, velocity }
     }
 
-    /// Counts drive periods that a lane skips.
+    /// Adds drive periods that a lane skips to the outcome of its job.
     pub fn count_skipped(&mut self, lane: usize, periods: f64) {
         if let Some(job) = self.lanes[lane] {
             self.outcomes[job].leapt += periods as u64;

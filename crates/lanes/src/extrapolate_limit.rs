@@ -4,22 +4,22 @@ use nalgebra::Vector2;
 
 use super::contraction_norm::spectral_radius;
 
-/// Returns of the motion from which the limit is first extrapolated.
+/// Number of returns of the motion from which their limit is extrapolated.
 pub(super) const RETURNS_PER_GUESS: usize = 4;
-/// Distance between the last two returns, velocities in units of the first one's and angles in rad, below which the last one is
-/// taken for the limit.
-const SETTLED_DISTANCE: f64 = 1e-8;
-/// Least difference between 1 and the spectral radius of the map of returns: deviations decay at least so much in one.
+/// Least difference between 1 and the spectral radius of the return map with which a limit is extrapolated: deviations decay
+/// by at least so much in one return.
 pub(super) const MIN_DECAY: f64 = 1e-3;
 
 /// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial
-/// extrapolation (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d.
+/// extrapolation (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d. None if
+/// they do not converge fast enough.
 pub(super) fn extrapolate_limit(
     points: &[Vector2<f64>; RETURNS_PER_GUESS],
 ) -> Option<(Vector2<f64>, f64)> {
     let [a, b, c] = [0, 1, 2].map(|k| points[k + 1] - points[k]);
     let last = points[RETURNS_PER_GUESS - 1];
-    if c.norm() < SETTLED_DISTANCE {
+    // Returns as close as that have settled.
+    if c.norm() < 1e-8 {
         return Some((last, 0.0));
     }
     let area = b.perp(&a);

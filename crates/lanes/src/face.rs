@@ -1,26 +1,26 @@
 //! The faces that end a phase, as linear functions of position and velocity.
 
-use super::cycle_state::Passage;
-use super::law::Constants;
+use super::cycle_state::FaceCrossing;
+use super::law::PhaseConstants;
 
-/// A face of a phase, `position` x + `velocity` v = `level`; inside the phase the left side is smaller.
+/// A face that ends a phase: `position` x + `velocity` v = `level`; inside the phase the left side is smaller.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Face {
+pub(super) struct PhaseFace {
     pub position: f64,
     pub velocity: f64,
     pub level: f64,
 }
 
-impl Face {
-    /// True if both are levels of the same function of position and velocity.
+impl PhaseFace {
+    /// True if two faces are levels of the same linear function of position and velocity.
     pub fn has_gradient_of(&self, other: &Self) -> bool {
         (self.position, self.velocity) == (other.position, other.velocity)
     }
 }
 
-impl Constants {
-    /// The face of the phase that a passage crosses, by its position.
-    pub fn crossed_face(&self, passage: &Passage) -> Face {
+impl PhaseConstants {
+    /// The face of the phase that a crossing is made at, told by its position.
+    pub fn crossed_face(&self, passage: &FaceCrossing) -> PhaseFace {
         let [high, low, further] = self.faces();
         match passage.position {
             x if x == high.level => high,
@@ -29,10 +29,10 @@ impl Constants {
         }
     }
 
-    /// The faces that end the phase: the upper and the lower position, and the further guard (friction, release of
-    /// contact); at infinity where there is none.
-    pub fn faces(&self) -> [Face; 3] {
-        let face = |position, velocity, level| Face {
+    /// The faces that end the phase: the upper position, the lower one, and the further guard (friction, release of contact);
+    /// with the level at infinity where there is none.
+    pub fn faces(&self) -> [PhaseFace; 3] {
+        let face = |position, velocity, level| PhaseFace {
             position,
             velocity,
             level,

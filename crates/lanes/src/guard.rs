@@ -4,12 +4,13 @@ use pulp::Simd;
 
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Law;
+use super::law::Laws;
 use super::parts::Parts;
 use super::window_ahead::WindowAhead;
 
-/// The guard that each lane may meet in its window: g = position x + velocity v - level.
-pub(super) struct Guard<S: Simd, const N: usize> {
+/// The guard function that each lane may meet in its window, g = position x + velocity v - level, with the error bound of its
+/// cubic.
+pub(super) struct WindowGuard<S: Simd, const N: usize> {
     pub position: Lanes<S, N>,
     pub velocity: Lanes<S, N>,
     pub level: Lanes<S, N>,
@@ -24,11 +25,12 @@ pub(super) struct Guard<S: Simd, const N: usize> {
     pub several: Mask<S, N>,
 }
 
-impl<S: Simd, const N: usize> Guard<S, N> {
-    /// The guard that each lane may meet in the window ahead.
+impl<S: Simd, const N: usize> WindowGuard<S, N> {
+    /// The guard that each lane may meet in the window ahead; `error_bound`: of the cubic through the positions over a whole
+    /// window.
     #[inline(always)]
     pub fn of_window<const HAS_OTHER_ENDS: bool>(
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         ahead: &WindowAhead<S, N>,
         error_bound: Lanes<S, N>,
     ) -> Self {
@@ -40,9 +42,9 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         }
     }
 
-    /// The guard of a phase that one position ends.
+    /// The guard in lanes whose phase one position alone ends.
     #[inline(always)]
-    fn single_guard(law: &Law<S, N>, error_bound: Lanes<S, N>) -> Self {
+    fn single_guard(law: &Laws<S, N>, error_bound: Lanes<S, N>) -> Self {
         let zero = error_bound.like(0.0);
         let never = zero.below(zero);
         Self {
@@ -59,9 +61,13 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         }
     }
 
-    /// Of the guards of a phase with several ends, the one that the motion may meet by its hull.
+    /// The guard in lanes whose phase has several ends: the one that the motion may meet, by the hull of its cubic.
     #[inline(always)]
-    fn nearest_guard(law: &Law<S, N>, ahead: &WindowAhead<S, N>, error_bound: Lanes<S, N>) -> Self {
+    fn nearest_guard(
+        law: &Laws<S, N>,
+        ahead: &WindowAhead<S, N>,
+        error_bound: Lanes<S, N>,
+    ) -> Self {
         let one = error_bound.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
         let [x0, v0, a0] = ahead.state_from_edge(law, &ahead.here);
@@ -86,9 +92,9 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         guard
     }
 
-    /// Replaces the guard by the further one in the lanes `at`.
+    /// Replaces the guard by the further one of the phase (friction, release of contact) in the lanes `at`.
     #[inline(always)]
-    fn use_further_guard(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_error: Lanes<S, N>) {
+    fn use_further_guard(&mut self, law: &Laws<S, N>, at: Mask<S, N>, rate_error: Lanes<S, N>) {
         let (a, b) = (law.by_position, law.by_velocity);
         self.several = self.several | at.and_not(self.none);
         self.none = self.none.and_not(at);
@@ -105,11 +111,11 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         self.slow = at.choose(self.slow * law.guard_scale, self.slow);
     }
 
-    /// Value and rate of the guard along a motion.
+    /// Value and rate of the guard at an instant of the window, given by the parts of the motion.
     #[inline(always)]
     pub fn value_and_rate<const HAS_OTHER_ENDS: bool>(
         &self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         ahead: &WindowAhead<S, N>,
         parts: &Parts<S, N>,
     ) -> Pair<S, N> {
@@ -125,7 +131,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
     }
 }
 
-/// Bounds (low, high) on the position of a motion with these positions and velocities at both ends, by the Bernstein
+/// Bounds (low, high) on the position of a motion between two instants with known positions and velocities, by the Bernstein
 /// coefficients of its cubic; `third` is a third of the time between, |x''''| span^4 / 384 <= `error_bound`.
 #[inline(always)]
 fn cubic_hull<S: Simd, const N: usize>(

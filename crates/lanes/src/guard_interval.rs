@@ -6,9 +6,10 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Law;
+use super::law::Laws;
 
-/// A guard function g on [0, span]: values and rates at both ends, and error bound = |g''''| span^4 / 384.
+/// A guard function g over [0, span], known by its values and rates at both ends, with the error bound |g''''| span^4 / 384
+/// of their cubic.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GuardInterval<S: Simd, const N: usize> {
     pub left: Pair<S, N>,
@@ -17,9 +18,9 @@ pub(super) struct GuardInterval<S: Simd, const N: usize> {
     pub error_bound: Lanes<S, N>,
 }
 
-/// What is proven of a stretch; a lane in which nothing is true has to be divided further.
+/// What is proven of a guard function over an interval; a lane in which nothing is true has to divide the interval.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Verdict<S: Simd, const N: usize> {
+pub(super) struct IntervalVerdict<S: Simd, const N: usize> {
     /// g rises through zero nowhere.
     pub clear: Mask<S, N>,
     /// g rises through zero once, and is above it at the end.
@@ -29,11 +30,11 @@ pub(super) struct Verdict<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> GuardInterval<S, N> {
-    /// The interval of the further guard between two ends with their positions, velocities and accelerations;
-    /// `error_bounds`: of position and velocity.
+    /// The interval of the phase's further guard (friction, release of contact) between two ends with their positions,
+    /// velocities and accelerations; `error_bounds`: of the cubics of position and velocity.
     #[inline(always)]
     pub fn of_further_guard(
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         [left, right]: [[Lanes<S, N>; 3]; 2],
         span: Lanes<S, N>,
         (error_bound, rate_error_bound): Pair<S, N>,
@@ -47,7 +48,7 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         }
     }
 
-    /// The inner two Bernstein coefficients of the cubic.
+    /// The two inner Bernstein coefficients of the cubic through the values and rates.
     #[inline(always)]
     fn inner_bernstein(&self) -> Pair<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
@@ -55,7 +56,7 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         (third.mul_add(d0, g0), g1 - third * d1)
     }
 
-    /// True where the hull of g lies below zero.
+    /// True where the guard function is proven negative by the hull of its cubic.
     #[inline(always)]
     pub fn stays_below(&self) -> Mask<S, N> {
         let (b1, b2) = self.inner_bernstein();
@@ -63,9 +64,10 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         (high + self.error_bound).below(high.like(0.0))
     }
 
-    /// True where the further guard provably does not rise through zero, nor comes within rounding of it at the end.
+    /// True where the phase's further guard, of which this is the interval, provably does not rise through zero, nor comes
+    /// within rounding of zero at the end.
     #[inline(always)]
-    pub fn is_clear_of_further(&self, law: &Law<S, N>) -> Mask<S, N> {
+    pub fn is_clear_of_further(&self, law: &Laws<S, N>) -> Mask<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let (zero, scale) = (g0.like(0.0), law.guard_scale);
         let (ambiguity, slow) = (law.ambiguity * scale, law.slow * scale);
@@ -80,9 +82,10 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         interval.judge(touches, leaves).clear.and_not(ends_there)
     }
 
-    /// What is proven in each lane. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.
+    /// Proves what it can of the guard function in each lane. `touches`: it begins within rounding of zero; `leaves`: and it
+    /// falls there.
     #[inline(always)]
-    pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
+    pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> IntervalVerdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let zero = g0.like(0.0);
         let (b1, b2) = self.inner_bernstein();
@@ -105,7 +108,7 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         let quiet = falls | convex | (apart & climbs) | concave.and_not(turns);
         let clear = self.stays_below() | (sound & quiet).and_not(above);
         let hump = (concave & turns & apart).and_not(above);
-        Verdict {
+        IntervalVerdict {
             clear,
             rises,
             hump: hump.and_not(clear),

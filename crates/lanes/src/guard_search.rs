@@ -3,21 +3,22 @@
 use pulp::Simd;
 
 use super::cubic::Cubic;
-use super::guard::Guard;
+use super::guard::WindowGuard;
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Law;
+use super::law::Laws;
 use super::local_taylor;
 use super::nearby_zero::nearby_zero;
 use super::parts::Parts;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 use super::window_ahead::WindowAhead;
 
-/// Most instants besides the first at which a crossing or a maximum is searched for; then the safe engine finds it.
+/// Most instants besides the first guess at which a crossing or a maximum of the guard is searched for; then the safe engine
+/// finds it.
 const MAX_INSTANTS: usize = 6;
 
-/// What the search has found in each lane.
-pub(super) struct Found<S: Simd, const N: usize> {
+/// Result of the search for a crossing in the window ahead, in each lane.
+pub(super) struct SearchResult<S: Simd, const N: usize> {
     /// Lanes that meet nothing, and lanes that cross.
     pub clear: Mask<S, N>,
     pub hits: Mask<S, N>,
@@ -33,8 +34,8 @@ pub(super) struct Found<S: Simd, const N: usize> {
     pub velocity: Lanes<S, N>,
 }
 
-/// What each lane searches for.
-struct Goal<S: Simd, const N: usize> {
+/// What each lane searches for in the window ahead, and its present guess.
+struct SearchState<S: Simd, const N: usize> {
     /// Lanes that meet nothing.
     clear: Mask<S, N>,
     /// Lanes that look for the crossing.
@@ -48,16 +49,16 @@ struct Goal<S: Simd, const N: usize> {
     at: Lanes<S, N>,
 }
 
-impl<S: Simd, const N: usize> Guard<S, N> {
-    /// Searches the guard's first rise through zero in the lanes `pending`, and how far the others may go without one; the phase
-    /// `HAS_OTHER_ENDS` if something else than one position may end it.
+impl<S: Simd, const N: usize> WindowGuard<S, N> {
+    /// Searches the guard's first rise through zero in the lanes `pending`, and how far the others may go without one.
+    /// `HAS_OTHER_ENDS`: the phase may end at something else than one position.
     #[inline(always)]
     pub fn search_window<const HAS_OTHER_ENDS: bool>(
         &self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         ahead: &WindowAhead<S, N>,
         pending: Mask<S, N>,
-    ) -> Found<S, N> {
+    ) -> SearchResult<S, N> {
         let left = self.value_and_rate::<HAS_OTHER_ENDS>(law, ahead, &ahead.here);
         let right = self.value_and_rate::<HAS_OTHER_ENDS>(law, ahead, &ahead.there);
         let single = if HAS_OTHER_ENDS {
@@ -70,7 +71,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         let leaves = touches & left.1.below(-self.slow) & left.0.at_most(self.ambiguity);
         let root = cubic.guess_rise(leaves, single);
         let sound = single.and_not(touches) | (single & leaves);
-        let mut goal = Goal {
+        let mut goal = SearchState {
             clear: if HAS_OTHER_ENDS {
                 pending & self.none
             } else {
@@ -107,16 +108,16 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         self.refine_search::<HAS_OTHER_ENDS>(law, ahead, left, goal)
     }
 
-    /// Refines the guesses by Newton's method: lanes with a maximum first find how high it is, and those whose guard
-    /// rises their crossing; the others just go to the end.
+    /// Refines the guesses by Newton's method: lanes whose guard has a maximum first find how high it is, lanes whose guard
+    /// rises find the crossing; the others just go to the end of the window.
     #[inline(always)]
     fn refine_search<const HAS_OTHER_ENDS: bool>(
         &self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         ahead: &WindowAhead<S, N>,
         left: Pair<S, N>,
-        mut goal: Goal<S, N>,
-    ) -> Found<S, N> {
+        mut goal: SearchState<S, N>,
+    ) -> SearchResult<S, N> {
         let zero = ahead.span.like(0.0);
         let mut tries = 0;
         loop {
@@ -143,7 +144,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
                 } else {
                     (zero, zeros.slope)
                 };
-                return Found {
+                return SearchResult {
                     clear: goal.clear,
                     hits,
                     doubtful: goal.doubtful | open,
@@ -164,7 +165,8 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         }
     }
 
-    /// Decides lanes whose maximum is found: it lies below zero, above it, or too close to tell.
+    /// Decides lanes whose guard's maximum is found: below zero there is no crossing, above zero it is searched next, too
+    /// close to tell is left to the safe engine.
     #[inline(always)]
     fn decide_at_maximum(
         &self,
@@ -172,7 +174,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         tops: Mask<S, N>,
         height: Lanes<S, N>,
         span: Lanes<S, N>,
-        goal: &mut Goal<S, N>,
+        goal: &mut SearchState<S, N>,
     ) {
         let over = tops & self.ambiguity.below(height);
         let under = tops & height.below(-self.ambiguity);

@@ -5,8 +5,8 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 use pulp::Simd;
 use pulp::bytemuck::Zeroable;
 
-/// Applies an instruction to each register of one or two and puts the results in the place of a value's registers. Neither
-/// a loop (thousands of them, though unrolled, take the compiler minutes) nor a closure, which has no instruction set of its
+/// Applies an instruction to each register of one or two and puts the results in the place of a value's registers. Neither a
+/// loop (thousands of them, though unrolled, take the compiler minutes) nor a closure, which has no instruction set of its
 /// own and is slow wherever it is not inlined.
 macro_rules! each {
     ($value:expr => $first:ident.$intrinsic:ident($($other:ident),*)) => {{
@@ -21,7 +21,7 @@ macro_rules! each {
     }};
 }
 
-/// One number per lane, in N registers that go side by side, so that one waits less for the other.
+/// One number per lane, in N vector registers side by side, so that operations on one wait less for the other.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Lanes<S: Simd, const N: usize> {
@@ -32,7 +32,8 @@ pub(super) struct Lanes<S: Simd, const N: usize> {
 /// Two numbers per lane: a value and its rate, or position and velocity, or cosine and sine.
 pub(super) type Pair<S, const N: usize> = (Lanes<S, N>, Lanes<S, N>);
 
-/// One truth value per lane. Smaller ones would travel packed in one integer, and be unpacked for each use.
+/// One truth value per lane, as wide as the number: narrower ones would travel packed in one integer, and be unpacked for
+/// each use.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(super) struct Mask<S: Simd, const N: usize> {
@@ -60,7 +61,7 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
         pulp::bytemuck::cast_slice_mut::<S::f64s, f64>(&mut self.registers)[lane] = value;
     }
 
-    /// One number in every lane.
+    /// The same number in every lane.
     #[inline(always)]
     pub fn like(self, value: f64) -> Self {
         Self::splat(self.simd, value)
@@ -113,7 +114,7 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
         each!(Mask::none(self.simd) => self.equal_f64s(other))
     }
 
-    /// The largest whole number below, for numbers below 2^51.
+    /// The largest whole number not above the number in each lane, for numbers below 2^51.
     #[inline(always)]
     pub fn floor(self) -> Self {
         let shift = self.like(1.5 * (1u64 << 52) as f64);
@@ -129,19 +130,19 @@ impl<S: Simd, const N: usize> Mask<S, N> {
         Self { simd, registers }
     }
 
-    /// `yes` where true, `no` elsewhere.
+    /// The numbers of `yes` in the lanes where the mask is true, those of `no` elsewhere.
     #[inline(always)]
     pub fn choose(self, yes: Lanes<S, N>, no: Lanes<S, N>) -> Lanes<S, N> {
         each!(yes => self.select_f64s(yes, no))
     }
 
-    /// `yes` where true, `no` elsewhere.
+    /// The truth values of `yes` in the lanes where the mask is true, those of `no` elsewhere.
     #[inline(always)]
     pub fn choose_mask(self, yes: Self, no: Self) -> Self {
         (self & yes) | no.and_not(self)
     }
 
-    /// True where this one is and the other is not.
+    /// True in the lanes where this mask is true and `other` is not.
     #[inline(always)]
     pub fn and_not(self, other: Self) -> Self {
         self & other.not()
@@ -158,14 +159,14 @@ impl<S: Simd, const N: usize> Mask<S, N> {
         self.simd.first_true_m64s(any) < S::F64_LANES
     }
 
-    /// How many are true.
+    /// Number of lanes in which the mask is true.
     pub fn count(&self) -> usize {
         (0..Lanes::<S, N>::COUNT)
             .filter(|lane| self.get(*lane))
             .count()
     }
 
-    /// Truth of one lane, read from memory: it is asked for where the instruction set is not at hand.
+    /// The truth value of one lane, read from memory, since it is asked for where the instruction set is not at hand.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> bool {
         let (register, lane) = (lane / S::F64_LANES, lane % S::F64_LANES);

@@ -4,33 +4,33 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
 
-/// Length of a window times the fastest rate, in rad.
+/// Length of a scan window times the fastest rate of the motion, in rad.
 pub(super) const WINDOW_ANGLE: f64 = 1.2;
-/// Least share of a window, after halvings, of which lanes prove anything: below it the safe engine decides, or a cycle is not
+/// Least share of a window that is decided after halvings: below it the safe engine takes the lane, or a trial cycle is not
 /// proven.
 pub(super) const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
-/// Terms of the polynomial of the free motion over at most half a window: the first one left out is 0.6^16 / 16! < 2e-17.
+/// Number of terms of the power series of the free motion over at most half a window: the first one left out is 0.6^16 / 16!
+/// < 2e-17.
 pub(super) const FREE_TERMS: usize = 15;
 
 macro_rules! law {
     ($($(#[$doc:meta])* $field:ident,)*) => {
-        /// The constants of one phase of one machine.
+        /// The law of one phase of one machine as numbers: its equation of motion, ends and error bounds.
         #[derive(Debug, Clone, Copy, Default, PartialEq)]
-        pub(super) struct Constants {
+        pub(super) struct PhaseConstants {
             $($(#[$doc])* pub $field: f64,)*
-            /// The free motion from (0, 1): position over window as polynomial of time over window, from the linear
-            /// term on.
+            /// The free motion from (0, 1): position over window as polynomial of time over window, from the linear term on.
             pub response: [f64; FREE_TERMS],
         }
 
-        /// The constants of the laws in all lanes.
+        /// The law of one phase in every lane: [`PhaseConstants`] of the machine of each.
         #[derive(Debug, Clone, Copy)]
-        pub(super) struct Law<S: Simd, const N: usize> {
+        pub(super) struct Laws<S: Simd, const N: usize> {
             $(pub $field: Lanes<S, N>,)*
             pub response: [Lanes<S, N>; FREE_TERMS],
         }
 
-        impl<S: Simd, const N: usize> Law<S, N> {
+        impl<S: Simd, const N: usize> Laws<S, N> {
             #[inline(always)]
             pub fn new(simd: S) -> Self {
                 let none = Lanes::splat(simd, 0.0);
@@ -38,7 +38,7 @@ macro_rules! law {
             }
 
             #[inline(always)]
-            pub fn set(&mut self, lane: usize, constants: &Constants) {
+            pub fn set(&mut self, lane: usize, constants: &PhaseConstants) {
                 $(self.$field.set(lane, constants.$field);)*
                 for (lanes, term) in self.response.iter_mut().zip(constants.response) {
                     lanes.set(lane, term);
@@ -87,8 +87,8 @@ law! {
     fourth_v,
     fifth_x,
     fifth_v,
-    /// The free motion is never larger than |y| + longest |y'| in the free phase and in one that one position ends, the steady
-    /// one than swing.
+    /// The free motion is never larger than |y| + longest |y'| in the free phase and in one that one position ends, the
+    /// steady one than swing.
     longest,
     swing,
     /// Parts of the bound on |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
@@ -116,8 +116,8 @@ law! {
     /// 1 where passing high, or low, is an impact.
     impact,
     impact_low,
-    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how
-    /// velocity and count of impacts change there.
+    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how velocity and count of
+    /// impacts change there.
     end,
     beyond_end,
     end_bounce,
@@ -136,21 +136,22 @@ law! {
     slow,
 }
 
-impl<S: Simd, const N: usize> Law<S, N> {
-    /// Velocity and acceleration from position and velocity of a free motion, and so on for the derivatives of these.
+impl<S: Simd, const N: usize> Laws<S, N> {
+    /// Rate and second derivative of a free motion from its value and rate: velocity and acceleration from position and
+    /// velocity, and so on.
     #[inline(always)]
     pub fn differentiate_free(&self, (free, rate): Pair<S, N>) -> Pair<S, N> {
         (rate, self.stiffness.mul_add(free, self.damping * rate))
     }
 
-    /// True where the further guard is the velocity itself: the phase ends as it passes zero, under dry friction.
+    /// True where the phase ends as the velocity passes zero, under dry friction: the further guard is the velocity.
     #[inline(always)]
     pub fn ends_at_reversal(&self) -> Mask<S, N> {
         let zero = self.level.like(0.0);
         self.by_position.equals(zero) & self.level.equals(zero)
     }
 
-    /// Value and rate of the further guard at a position, velocity and acceleration.
+    /// Value and rate of the phase's further guard (friction, release of contact) at a position, velocity and acceleration.
     #[inline(always)]
     pub fn further_guard(&self, [x, v, a]: [Lanes<S, N>; 3]) -> Pair<S, N> {
         let by_position = self.by_position.mul_add(x, -self.level);
@@ -160,7 +161,7 @@ impl<S: Simd, const N: usize> Law<S, N> {
         )
     }
 
-    /// Upper and lower end of the phase as side (x - offset); the lower one at minus infinity where one position ends
+    /// Upper and lower end of the phase, as side (x - offset); the lower one at minus infinity where one position alone ends
     /// it.
     #[inline(always)]
     pub fn edges<const HAS_OTHER_ENDS: bool>(&self) -> Pair<S, N> {
@@ -171,7 +172,8 @@ impl<S: Simd, const N: usize> Law<S, N> {
         }
     }
 
-    /// Position and velocity of a free motion (y, u) after whole windows, by powers of the transition matrix of one.
+    /// Position and velocity of a free motion (y, u) after a whole number of windows, by powers of the transition matrix of
+    /// one.
     #[inline(always)]
     pub fn free_after_whole(&self, windows: Lanes<S, N>, (mut y, mut u): Pair<S, N>) -> Pair<S, N> {
         let (zero, one, half) = (y.like(0.0), y.like(1.0), y.like(0.5));

@@ -91,7 +91,7 @@ mod run;
 mod safe_engine;
 mod scan;
 mod sine_cosine;
-mod skip_calm;
+mod skip_contactless;
 mod state;
 mod window_ahead;
 

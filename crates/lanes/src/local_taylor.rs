@@ -3,16 +3,17 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Pair};
-use super::law::Law;
+use super::law::Laws;
 use super::parts::Parts;
 
-/// Taylor coefficients of a function of time, its value first.
-pub(super) type Taylor<S, const N: usize> = [Lanes<S, N>; TERMS];
+/// Coefficients of a Taylor polynomial in time about one instant, in every lane, the value first.
+pub(super) type LocalTaylor<S, const N: usize> = [Lanes<S, N>; TERMS];
 
-/// Number of Taylor coefficients: up to a nearby zero, 0.02 rad, the first one left out adds less than 3e-16.
+/// Number of coefficients of a [`LocalTaylor`]: up to a nearby zero, 0.02 rad away, the first one left out adds less than
+/// 3e-16.
 pub(super) const TERMS: usize = 7;
 
-/// 1/n! for n from 0 to [`TERMS`].
+/// Factors 1/n! of Taylor coefficients, for n from 0 to [`TERMS`].
 const RECIPROCAL_FACTORIALS: [f64; TERMS + 1] = {
     let mut table = [1.0; TERMS + 1];
     let mut n = 2;
@@ -23,10 +24,10 @@ const RECIPROCAL_FACTORIALS: [f64; TERMS + 1] = {
     table
 };
 
-/// Derivatives of x - offset - edge, from order 0 to one more than a [`Taylor`] has.
+/// Derivatives of the signed distance from the guard's edge at one instant, from order 0 to [`TERMS`].
 #[inline(always)]
 pub(super) fn motion_derivatives<S: Simd, const N: usize>(
-    law: &Law<S, N>,
+    law: &Laws<S, N>,
     frequency: Lanes<S, N>,
     parts: &Parts<S, N>,
 ) -> [Lanes<S, N>; TERMS + 1] {
@@ -52,12 +53,12 @@ pub(super) fn motion_derivatives<S: Simd, const N: usize>(
     ]
 }
 
-/// Taylor coefficients of the guard position x + velocity v - level.
+/// Taylor polynomial of the guard position x + velocity v - level about an instant, from the derivatives of the motion there.
 #[inline(always)]
 pub(super) fn guard_taylor<S: Simd, const N: usize, const HAS_OTHER_ENDS: bool>(
     derivatives: &[Lanes<S, N>; TERMS + 1],
     (position, velocity, level): (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>),
-) -> Taylor<S, N> {
+) -> LocalTaylor<S, N> {
     let mut local = [level; TERMS];
     for (n, term) in local.iter_mut().enumerate() {
         let here = derivatives[n];
@@ -75,9 +76,11 @@ pub(super) fn guard_taylor<S: Simd, const N: usize, const HAS_OTHER_ENDS: bool>(
     local
 }
 
-/// Taylor coefficients of the negative first derivative of a function.
+/// Taylor polynomial of minus the first derivative of a function: it rises through zero where the function has a maximum.
 #[inline(always)]
-pub(super) fn negated_rate<S: Simd, const N: usize>(local: &Taylor<S, N>) -> Taylor<S, N> {
+pub(super) fn negated_rate<S: Simd, const N: usize>(
+    local: &LocalTaylor<S, N>,
+) -> LocalTaylor<S, N> {
     let mut rate = [local[0].like(0.0); TERMS];
     for n in 1..TERMS {
         rate[n - 1] = local[n] * local[n].like(-(n as f64));
@@ -85,10 +88,11 @@ pub(super) fn negated_rate<S: Simd, const N: usize>(local: &Taylor<S, N>) -> Tay
     rate
 }
 
-/// Second derivative of a function a time `at` from the centre, to the digits that a short step needs.
+/// Second derivative of a Taylor polynomial a time `at` from its centre, to the digits that a short step of Newton's method
+/// needs.
 #[inline(always)]
 pub(super) fn curvature_at<S: Simd, const N: usize>(
-    local: &Taylor<S, N>,
+    local: &LocalTaylor<S, N>,
     at: Lanes<S, N>,
 ) -> Lanes<S, N> {
     let fifth = (at * local[5]).mul_add(at.like(20.0), local[4] * at.like(12.0));
@@ -96,9 +100,12 @@ pub(super) fn curvature_at<S: Simd, const N: usize>(
     at.mul_add(third, local[2] + local[2])
 }
 
-/// Value of a function a time `at` from the centre.
+/// Value of a Taylor polynomial a time `at` from its centre.
 #[inline(always)]
-pub(super) fn eval<S: Simd, const N: usize>(local: &Taylor<S, N>, at: Lanes<S, N>) -> Lanes<S, N> {
+pub(super) fn eval<S: Simd, const N: usize>(
+    local: &LocalTaylor<S, N>,
+    at: Lanes<S, N>,
+) -> Lanes<S, N> {
     let mut value = local[TERMS - 1];
     for term in local[..TERMS - 1].iter().rev() {
         value = value.mul_add(at, *term);
@@ -106,7 +113,7 @@ pub(super) fn eval<S: Simd, const N: usize>(local: &Taylor<S, N>, at: Lanes<S, N
     value
 }
 
-/// Position and velocity a time `moment` from the centre.
+/// Position and velocity a time `moment` after the instant at which the derivatives of the motion are given.
 #[inline(always)]
 pub(super) fn position_and_velocity_at<S: Simd, const N: usize>(
     derivatives: &[Lanes<S, N>; TERMS + 1],

@@ -1,23 +1,24 @@
 //! Machines made ready for the lanes, the jobs that these are given, their outcomes, and the instruction set that runs them.
 
 use super::bounce_trains::BounceTrains;
-use super::law::Constants;
+use super::law::PhaseConstants;
 use super::observer::ObserverHandle;
 use super::phase_order::{MAX_PHASES, PhaseGraph};
 use softstop::{CheckedScene, MotionError, Start};
 
-/// A machine, lowered once for any number of motions.
+/// A machine whose phases are made ready for the lanes, once for any number of motions.
 #[derive(Debug, Clone)]
 pub struct LoweredMachine {
     scene: CheckedScene,
-    pub(super) laws: Option<Vec<Constants>>,
+    pub(super) laws: Option<Vec<PhaseConstants>>,
     pub(super) outline: Option<PhaseGraph>,
     /// Cos and sin of the drive angle at time 0.
     pub(super) angle: (f64, f64),
 }
 
 impl LoweredMachine {
-    /// Lowers a scene to the laws of the lanes.
+    /// Computes the laws of a scene's phases for the lanes; [`LoweredMachine::is_for_lanes`] says whether they can follow
+    /// them.
     pub fn new(scene: &CheckedScene) -> Self {
         let (phases, drive) = (scene.phases(), scene.excitation);
         let trains = BounceTrains { phases, drive };
@@ -37,19 +38,20 @@ impl LoweredMachine {
         &self.scene
     }
 
-    /// True if its motions can be followed in lanes: all its laws are linear but for a power law at the end,
-    /// none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back for rows of bounces without end.
+    /// True if lanes can follow the machine's motions; else the safe engine does. All laws are linear but for a power law at
+    /// the end, none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back in
+    /// trains of bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()
     }
 
-    /// True if drive periods of settled motions are skipped: with power laws that is not proven.
+    /// True if drive periods of settled motions are skipped; not with power laws, for which nothing is proven of returns.
     pub fn skips_periods(&self) -> bool {
         let laws = self.laws.as_ref();
-        laws.is_some_and(|laws| !laws.iter().any(Constants::has_power_law))
+        laws.is_some_and(|laws| !laws.iter().any(PhaseConstants::has_power_law))
     }
 
-    /// True if a position lies clearly in the free phase, the first, and lanes can follow the machine.
+    /// True if lanes can follow the machine and a position lies clearly in its phase without contact.
     pub(super) fn is_free_at(&self, position: f64) -> bool {
         let free = self.laws.iter().flatten().next();
         free.is_some_and(|free| {
@@ -58,7 +60,7 @@ impl LoweredMachine {
     }
 }
 
-/// One motion to follow, from drive period 0 on.
+/// A motion to follow, from drive period 0 on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Job {
     /// Which of the machines.
@@ -69,7 +71,7 @@ pub struct Job {
     pub periods: u64,
 }
 
-/// What became of a job.
+/// End and counts of the motion of a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// State at the end.
@@ -86,7 +88,7 @@ pub struct Outcome {
     pub error: Option<MotionError>,
 }
 
-/// The instruction set that the lanes use.
+/// The instruction set that the lanes are computed with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Instructions {
     /// The widest that the processor has.
@@ -97,7 +99,7 @@ pub enum Instructions {
     Portable,
 }
 
-/// Jobs, the machines that they name, and who watches them.
+/// The jobs of a batch, the machines that they name, and the observer of their motions.
 pub(super) struct Task<'a> {
     pub machines: &'a [LoweredMachine],
     pub jobs: &'a [Job],

@@ -4,11 +4,10 @@ use pulp::Simd;
 
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask, Pair};
-use super::state::State;
+use super::state::LaneStates;
 use softstop::Start;
 
-/// The state of each lane after a step and, at a crossing, the phase beyond it and the impacts (0 or 1) that it counts
-/// as.
+/// Where a step brings each lane: its state then and, at a crossing, the phase beyond and the number of impacts, 0 or 1.
 pub(super) struct LaneEnd<S: Simd, const N: usize> {
     pub x: Lanes<S, N>,
     pub v: Lanes<S, N>,
@@ -19,8 +18,8 @@ pub(super) struct LaneEnd<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Puts the lanes `moved` into the state after a `time`, the lanes `hits` into the phase beyond the crossing, and
-    /// counts impacts, crossings and ends of periods; (cos, sin): the drive angle then.
+    /// Puts the lanes `moved` into the state at the end of a step that takes `time`, and the lanes `hits` into the phase
+    /// beyond the crossing there; counts impacts, crossings and ends of periods. (cos, sin): the drive angle then.
     #[inline(always)]
     pub fn move_lanes(
         &mut self,
@@ -58,7 +57,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Ends the drive period, or the job, of the lanes that have `arrived` there; those whose job is complete.
+    /// Ends the drive period, or the job where periods are not observed, of the lanes that have `arrived` there; returns
+    /// those whose job is complete.
     #[inline(always)]
     pub fn end_periods(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
         if !arrived.any() {
@@ -77,12 +77,13 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         state.angle.0 = arrived.choose(state.drive.begin.0, state.angle.0);
         state.angle.1 = arrived.choose(state.drive.begin.1, state.angle.1);
         if periods {
-            self.tell_periods(arrived);
+            let LaneStates { left, x, v, .. } = self.state;
+            self.tell_states(arrived, left, (x, v));
         }
         arrived & self.state.left.at_most(zero)
     }
 
-    /// Tells the observer of impacts at the present times of these lanes.
+    /// Tells the observer of impacts that the lanes make at their present times, with their velocities.
     fn tell_impacts(&mut self, lanes: Mask<S, N>, velocity: Lanes<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if lanes.get(lane)
@@ -90,25 +91,22 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             {
                 let offset = self.state.offset.get(lane);
                 let speed = velocity.get(lane).abs();
-                self.task.watch.tell_impact(job, cycle, offset, speed);
+                self.task
+                    .watch
+                    .observer
+                    .tell_impact(job, cycle, offset, speed);
             }
         }
     }
 
-    /// Tells the observer that these lanes have begun a drive period.
-    fn tell_periods(&mut self, lanes: Mask<S, N>) {
-        let State { left, x, v, .. } = self.state;
-        self.tell_states(lanes, left, (x, v));
-    }
-
-    /// Tells the observer that these lanes begin a drive period in the state (x, v), `left` ones being left.
+    /// Tells the observer that the lanes begin a drive period in the states (x, v), with `left` periods of their jobs left.
     pub fn tell_states(&mut self, lanes: Mask<S, N>, left: Lanes<S, N>, (x, v): Pair<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if lanes.get(lane)
                 && let Some((job, cycle)) = self.job_progress_with(lane, left.get(lane))
             {
                 let state = Start::new(x.get(lane), v.get(lane));
-                self.task.watch.tell_period(job, cycle, state);
+                self.task.watch.observer.tell_period(job, cycle, state);
             }
         }
     }

@@ -4,16 +4,14 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
 use super::law::WINDOW_ANGLE;
-use super::local_taylor::{TERMS, Taylor, curvature_at};
+use super::local_taylor::{LocalTaylor, TERMS, curvature_at};
 
-/// Longest time from the centre to a zero that is used, times the fastest rate, in rad.
+/// Longest time from the centre of a Taylor polynomial at which its zero is used, times the fastest rate of the motion, in
+/// rad.
 const MAX_ZERO_ANGLE: f64 = 0.02;
-/// Longest step of Newton's method that may be the last, in windows.
-const MAX_LAST_STEP: f64 = 1e-7;
-/// Longest step of Newton's method that is lost in rounding and so need not be made, in windows.
-const MAX_OMITTED_STEP: f64 = 4e-16;
 
-/// A zero of a Taylor polynomial: at which time, the slope there, and where it is certain.
+/// A zero of a Taylor polynomial in each lane: its time from the centre, the slope there, and whether Newton's method
+/// converged.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Zero<S: Simd, const N: usize> {
     pub time: Lanes<S, N>,
@@ -21,11 +19,11 @@ pub(super) struct Zero<S: Simd, const N: usize> {
     pub sure: Mask<S, N>,
 }
 
-/// The zero of a Taylor polynomial next to its centre, in the lanes `of`: the series reverted to fourth order, then
-/// one step of Newton's method, in hard cases two.
+/// Finds the zero of a Taylor polynomial near its centre in the lanes `of`: the series reverted to fourth order, then one
+/// step of Newton's method, in hard cases two.
 #[inline(always)]
 pub(super) fn nearby_zero<S: Simd, const N: usize>(
-    local: &Taylor<S, N>,
+    local: &LocalTaylor<S, N>,
     window: Lanes<S, N>,
     of: Mask<S, N>,
 ) -> Zero<S, N> {
@@ -53,7 +51,8 @@ pub(super) fn nearby_zero<S: Simd, const N: usize>(
     Zero { time, slope, sure }
 }
 
-/// True where the next step of Newton's method would be lost in rounding, `a` being half the curvature over the slope.
+/// True where the next step of Newton's method would be lost in rounding after `step`; `a`: half the curvature over the
+/// slope.
 #[inline(always)]
 fn is_last_step<S: Simd, const N: usize>(
     step: Lanes<S, N>,
@@ -61,14 +60,14 @@ fn is_last_step<S: Simd, const N: usize>(
     window: Lanes<S, N>,
 ) -> Mask<S, N> {
     let next = (a * step * step).abs();
-    step.abs().below(window * window.like(MAX_LAST_STEP))
-        & next.below(window * window.like(MAX_OMITTED_STEP))
+    step.abs().below(window * window.like(1e-7)) & next.below(window * window.like(4e-16))
 }
 
-/// One step of Newton's method: where it leads, the slope there, and the step.
+/// One step of Newton's method for a zero of a Taylor polynomial from the time `at`: the new time, the slope there, and the
+/// step.
 #[inline(always)]
 fn newton_step<S: Simd, const N: usize>(
-    local: &Taylor<S, N>,
+    local: &LocalTaylor<S, N>,
     at: Lanes<S, N>,
 ) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
     let mut value = local[TERMS - 1];

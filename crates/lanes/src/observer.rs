@@ -4,24 +4,27 @@ use std::ops::ControlFlow;
 
 use softstop::Start;
 
-/// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
+/// An observer of the motions of a batch. An implementation has the methods for what it observes, and sets the constants for
+/// them to true.
 pub trait BatchObserver {
-    /// True if it wants to know of impacts.
+    /// True if the observer is told of impacts.
     const IMPACTS: bool = false;
-    /// True if it wants to know of the ends of drive periods.
+    /// True if the observer is told of the ends of drive periods.
     const PERIODS: bool = false;
 
-    /// A mass touches, `offset` seconds into the drive period `cycle`, with this velocity towards the stop.
+    /// Told of an impact of a job's motion, `offset` seconds into the drive period `cycle`, with its velocity towards the
+    /// stop.
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         let _ = (job, cycle, offset, velocity);
     }
 
-    /// Drive period `cycle` has begun.
+    /// Told that a job's motion begins the drive period `cycle` in this state.
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let _ = (job, cycle, state);
     }
 
-    /// Whether the batch goes on; asked hundreds of times a second. What is left of it stays where it is.
+    /// Asked hundreds of times a second whether the batch goes on; on a break the motions that are not complete stay where
+    /// they are.
     fn goes_on(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -30,9 +33,9 @@ pub trait BatchObserver {
 /// Watches nothing.
 impl BatchObserver for () {}
 
-/// An observer of any type, so that the engine is compiled once for all.
+/// An observer of whatever type behind one type, so that the engine is compiled once for all observers.
 pub(super) struct ObserverHandle<'a> {
-    watch: &'a mut dyn DynamicObserver,
+    pub observer: &'a mut dyn DynamicObserver,
     /// Whether it is told of impacts and of periods.
     pub impacts: bool,
     pub periods: bool,
@@ -42,14 +45,14 @@ pub(super) struct ObserverHandle<'a> {
     answer: ControlFlow<()>,
 }
 
-/// Work after which the observer is asked again whether the batch goes on, in scan windows: a millisecond, or a few.
+/// Work, in scan windows, after which the observer is asked again whether the batch goes on: a millisecond, or a few.
 const WORK_BETWEEN_QUESTIONS: u64 = 1 << 15;
 
 impl<'a> ObserverHandle<'a> {
-    /// The handle of an observer.
-    pub fn new<W: BatchObserver>(watch: &'a mut W) -> Self {
+    /// Wraps an observer.
+    pub fn new<W: BatchObserver>(observer: &'a mut W) -> Self {
         Self {
-            watch,
+            observer,
             impacts: W::IMPACTS,
             periods: W::PERIODS,
             work: 0,
@@ -57,28 +60,18 @@ impl<'a> ObserverHandle<'a> {
         }
     }
 
-    /// Counts work, in scan windows; whether the batch goes on.
+    /// Counts work, in scan windows, and asks the observer from time to time; returns its last answer.
     pub fn count_work(&mut self, windows: u64) -> ControlFlow<()> {
         self.work += windows;
         if self.work >= WORK_BETWEEN_QUESTIONS && self.answer.is_continue() {
-            (self.work, self.answer) = (0, self.watch.ask_to_go_on());
+            (self.work, self.answer) = (0, self.observer.ask_to_go_on());
         }
         self.answer
     }
-
-    /// As [`BatchObserver::impact`].
-    pub fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
-        self.watch.tell_impact(job, cycle, offset, velocity);
-    }
-
-    /// As [`BatchObserver::period`].
-    pub fn tell_period(&mut self, job: usize, cycle: u64, state: Start) {
-        self.watch.tell_period(job, cycle, state);
-    }
 }
 
-/// [`BatchObserver`] without its constants.
-trait DynamicObserver {
+/// The methods of [`BatchObserver`] without its constants, so that it can be a trait object.
+pub(super) trait DynamicObserver {
     fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
     fn tell_period(&mut self, job: usize, cycle: u64, state: Start);
     fn ask_to_go_on(&mut self) -> ControlFlow<()>;

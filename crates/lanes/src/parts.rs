@@ -2,11 +2,12 @@
 
 use pulp::Simd;
 
+use super::engine::Engine;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Law;
+use super::law::Laws;
 use super::sine_cosine::{HALF_WINDOW_DEGREE, cos_sinc};
 
-/// A motion as the sum of a free part, position y and velocity u, and the steady part under the drive, p and q.
+/// A motion in every lane as the sum of a free part, position y and velocity u, and the steady part under the drive, p and q.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Parts<S: Simd, const N: usize> {
     pub y: Lanes<S, N>,
@@ -18,7 +19,7 @@ pub(super) struct Parts<S: Simd, const N: usize> {
 impl<S: Simd, const N: usize> Parts<S, N> {
     /// Free and steady part one window later.
     #[inline(always)]
-    pub fn after_window(&self, law: &Law<S, N>) -> Self {
+    pub fn after_window(&self, law: &Laws<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         Self {
             y: law.xx.mul_add(y, law.xv * u),
@@ -28,11 +29,12 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         }
     }
 
-    /// Free and steady part after `time` of at most a window, from the nearer of its ends: `next` holds the parts at the later one.
+    /// Free and steady part after `time` of at most a window, computed from the nearer end of the window; `next`: the parts
+    /// at its later end.
     #[inline(always)]
     pub fn within_window(
         &self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         frequency: Lanes<S, N>,
         next: &Self,
         time: Lanes<S, N>,
@@ -42,9 +44,9 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         base.after_time(law, frequency, late.choose(time - law.window, time))
     }
 
-    /// The parts after `time` of at most half a window either way.
+    /// Free and steady part after `time` of at most half a window, forwards or backwards.
     #[inline(always)]
-    pub fn after_time(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
+    pub fn after_time(&self, law: &Laws<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         let share = time * law.per_window;
         let mut position = law.response[law.response.len() - 1];
@@ -66,7 +68,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         .turn_drive::<HALF_WINDOW_DEGREE>(frequency, time)
     }
 
-    /// These parts with the steady one taken on by a `time` for which this many terms of cosine and sine are enough.
+    /// These parts with the steady one moved on by `time`, by cosine and sine series of degree `DEGREE`; the free part stays.
     #[inline(always)]
     pub fn turn_drive<const DEGREE: usize>(
         &self,
@@ -94,28 +96,28 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         }
     }
 
-    /// |x''''| window^4 / 384 over the next window: what the cubic through the positions and velocities at its ends
-    /// may be off by. In phases that only a position ends, over all windows of a scan.
+    /// Bound |x''''| window^4 / 384 on the error of the cubic through positions and velocities over the next window; in
+    /// phases that one position alone ends, over all windows of a scan.
     #[inline(always)]
-    pub fn position_error(&self, law: &Law<S, N>) -> Lanes<S, N> {
+    pub fn position_error(&self, law: &Laws<S, N>) -> Lanes<S, N> {
         let Self { y, u, .. } = *self;
         let fourth = law.fourth_x.mul_add(y, law.fourth_v * u).abs();
         let fifth = law.fifth_x.mul_add(y, law.fifth_v * u).abs();
         law.steady + fourth + fifth
     }
 
-    /// |v''''| window^4 / 384 over the next window, that of the cubic through velocities and accelerations.
+    /// Bound |v''''| window^4 / 384 on the error of the cubic through velocities and accelerations over the next window.
     #[inline(always)]
-    pub fn velocity_error(&self, law: &Law<S, N>) -> Lanes<S, N> {
+    pub fn velocity_error(&self, law: &Laws<S, N>) -> Lanes<S, N> {
         let Self { y, u, .. } = *self;
         let fifth = law.rate_fifth_x.mul_add(y, law.rate_fifth_v * u).abs();
         let sixth = law.rate_sixth_x.mul_add(y, law.rate_sixth_v * u).abs();
         law.rate_steady + fifth + sixth
     }
 
-    /// cos and sin of the drive angle, from the steady part.
+    /// cos and sin of the drive angle, computed from the steady part.
     #[inline(always)]
-    pub fn drive_angle(&self, law: &Law<S, N>) -> Pair<S, N> {
+    pub fn drive_angle(&self, law: &Laws<S, N>) -> Pair<S, N> {
         let Self { p, q, .. } = *self;
         (
             law.cosine_of_position
@@ -124,17 +126,17 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         )
     }
 
-    /// x'' of the two parts together.
+    /// The acceleration x'' of the whole motion.
     #[inline(always)]
-    pub fn acceleration(&self, law: &Law<S, N>, frequency: Lanes<S, N>) -> Lanes<S, N> {
+    pub fn acceleration(&self, law: &Laws<S, N>, frequency: Lanes<S, N>) -> Lanes<S, N> {
         let steady = -(frequency * frequency * self.p);
         law.stiffness
             .mul_add(self.y, law.damping.mul_add(self.u, steady))
     }
 
-    /// x''' and x'''' of the two parts together.
+    /// The third and fourth derivative x''' and x'''' of the whole motion.
     #[inline(always)]
-    pub fn jerk_and_snap(&self, law: &Law<S, N>, frequency: Lanes<S, N>) -> Pair<S, N> {
+    pub fn jerk_and_snap(&self, law: &Laws<S, N>, frequency: Lanes<S, N>) -> Pair<S, N> {
         let turn = -(frequency * frequency);
         let second = law.differentiate_free((self.y, self.u));
         let third = law.differentiate_free(second);
@@ -146,7 +148,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
     /// Position and velocity of a free motion (y, u) after a time of any length.
     #[inline(always)]
     pub fn free_after(
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         frequency: Lanes<S, N>,
         time: Lanes<S, N>,
         (y, u): Pair<S, N>,
@@ -160,5 +162,23 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         };
         let begun = parts.after_time(law, frequency, time.minus_product(windows, law.window));
         law.free_after_whole(windows, (begun.y, begun.u))
+    }
+}
+
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
+    /// Free and steady part of the present motion of all lanes, as signed distances side (x - offset); the guard is at
+    /// `edge`.
+    #[inline(always)]
+    pub fn motion_parts(&self, law: &Laws<S, N>) -> Parts<S, N> {
+        let (cos, sin) = self.state.angle;
+        let p = law.cosine.mul_add(cos, law.sine * sin);
+        let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
+        let side = law.side;
+        Parts {
+            y: side.mul_add(self.state.x - law.offset, -p),
+            u: side.mul_add(self.state.v, -q),
+            p,
+            q,
+        }
     }
 }

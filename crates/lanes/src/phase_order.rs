@@ -1,9 +1,9 @@
 //! The phases of a machine as a graph, and the order in which a round of the loop visits them.
 
-use super::law::Constants;
+use super::law::PhaseConstants;
 
-/// All phases of machines with these graphs, each before its successors, but for the step that closes a cycle: lanes
-/// go from phase to phase in one round of the loop, and all begin the next one together.
+/// The order in which a round of the loop visits the phases of machines with these graphs: each phase before its successors,
+/// but for the step that closes a cycle, so that lanes go from phase to phase in one round.
 pub(super) fn phase_order(outlines: &[PhaseGraph], most: usize) -> Vec<usize> {
     let mut beyond = vec![Vec::new(); most];
     for outline in outlines {
@@ -24,7 +24,7 @@ pub(super) fn phase_order(outlines: &[PhaseGraph], most: usize) -> Vec<usize> {
     done
 }
 
-/// Depth-first search: appends a phase to `done` once all its successors are there.
+/// Appends a phase to `done` once all its successors are there: depth-first search, which is reversed into [`phase_order`].
 fn push_postorder(phase: usize, beyond: &[Vec<usize>], seen: &mut [bool], done: &mut Vec<usize>) {
     if !std::mem::replace(&mut seen[phase], true) {
         for next in &beyond[phase] {
@@ -38,10 +38,10 @@ fn push_postorder(phase: usize, beyond: &[Vec<usize>], seen: &mut [bool], done: 
 pub(super) const MAX_PHASES: usize = 16;
 /// Most phases that may follow on one phase.
 const MAX_SUCCESSORS: usize = 3;
-/// Marks an unused place in the list of successors.
+/// Marks an unused entry in the list of a phase's successors.
 const NO_SUCCESSOR: u8 = u8::MAX;
 
-/// The phases of a machine and their successors.
+/// The graph of a machine's phases: which may follow on which.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PhaseGraph {
     /// Number of phases.
@@ -54,8 +54,8 @@ pub(super) struct PhaseGraph {
 }
 
 impl PhaseGraph {
-    /// The graph of a machine with these laws, at most [`MAX_PHASES`].
-    pub fn from_laws(laws: &[Constants]) -> Self {
+    /// The graph of a machine with at most [`MAX_PHASES`] phases, by their laws.
+    pub fn from_laws(laws: &[PhaseConstants]) -> Self {
         let mut outline = Self {
             count: laws.len(),
             plain: 0,
@@ -72,7 +72,7 @@ impl PhaseGraph {
         outline
     }
 
-    /// The distinct ones among these graphs.
+    /// The graphs of some machines without repetitions.
     pub fn distinct<'a>(all: impl Iterator<Item = &'a Self>) -> Vec<Self> {
         let mut different: Vec<Self> = Vec::new();
         for outline in all {
@@ -83,17 +83,17 @@ impl PhaseGraph {
         different
     }
 
-    /// True if one position, and nothing else, ends the phase.
+    /// True if one position alone ends a phase; also where the machine has no phase of this index.
     pub fn has_one_end(&self, phase: usize) -> bool {
         phase >= self.count || self.plain >> phase & 1 != 0
     }
 
-    /// True if a power law acts in the phase.
+    /// True if a power-law contact acts in a phase.
     pub fn has_power_law(&self, phase: usize) -> bool {
         self.presses >> phase & 1 != 0
     }
 
-    /// The phases that follow on one.
+    /// Indices of the phases that may follow on a phase.
     pub fn successors(&self, phase: usize) -> impl Iterator<Item = usize> + '_ {
         let ends = self.beyond[phase].iter();
         ends.filter(|end| **end != NO_SUCCESSOR)

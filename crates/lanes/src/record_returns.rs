@@ -1,16 +1,17 @@
-//! Records the returns of the lanes to their impacts and does what [`Returns`](super::returns::Returns) decides:
+//! Records the returns of the lanes to their impacts and does what [`ReturnHistory`](super::returns::ReturnHistory) decides:
 //! follow a trial cycle, go back, or skip periods that repeat.
 
 use nalgebra::Complex;
 use pulp::Simd;
 
-use super::cycle_state::{Drive, Passage};
+use super::cycle_state::{FaceCrossing, Forcing};
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::returns::ReturnDecision;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Begins to record the returns of a lane, unless an observer watches what lies between them.
+    /// Begins to record the returns of a lane to an impact for a new job, unless an observer watches what would be skipped
+    /// between them.
     pub fn begin_recording(&mut self, lane: usize) {
         let (per_period, left) = (
             self.state.drive.per_period.get(lane),
@@ -22,13 +23,14 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Records the crossings, of any surface, of lanes that are on a trial cycle; `before`: their velocities before the crossing.
+    /// Records the crossings, of any surface, of lanes that follow a trial cycle; `before`: their velocities before the
+    /// crossing.
     #[cold]
     #[inline(never)]
     pub fn record_trial_crossings(&mut self, crossed: Mask<S, N>, before: Lanes<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if crossed.get(lane) && self.returns[lane].is_trial() {
-                self.returns[lane].record_crossing(Passage {
+                self.returns[lane].record_crossing(FaceCrossing {
                     position: self.state.x.get(lane),
                     velocity: before.get(lane),
                     velocity_after: self.state.v.get(lane),
@@ -40,7 +42,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Records the returns of lanes that have just made an impact.
+    /// Records the returns of lanes that have just made an impact, and does what is decided after them.
     #[cold]
     #[inline(never)]
     pub fn record_returns(&mut self, lanes: Mask<S, N>) {
@@ -48,8 +50,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             if lanes.get(lane)
                 && let Some(machine) = self.machine_of(lane)
             {
-                let now = self.state.return_of(lane);
-                let drive = Drive {
+                let now = self.state.post_impact_state(lane);
+                let drive = Forcing {
                     frequency: machine.scene().excitation.frequency,
                     period: machine.scene().period(),
                     begin: Complex::new(machine.angle.0, machine.angle.1),
@@ -71,19 +73,19 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Takes a lane back from its trial cycle to where it was before; false if it follows none.
+    /// Takes a lane back from its trial cycle to the last recorded return of its own motion; false if it follows none.
     pub fn end_trial(&mut self, lane: usize) -> bool {
         let back = self.returns[lane].end_trial();
         back.map(|decision| self.apply_decision(lane, decision))
             .is_some()
     }
 
-    /// Does what was decided after a return: where the lane goes on, and when its returns are recorded again.
+    /// Does what was decided after a return: sets where the lane goes on, and when its returns are recorded again.
     fn apply_decision(&mut self, lane: usize, decision: ReturnDecision) {
         self.state.record_from.set(lane, decision.record_again_at);
         self.count_skipped(lane, decision.extrapolated_periods);
         if let Some(to) = decision.resume_at {
-            self.state.set_return(lane, to);
+            self.state.set_post_impact_state(lane, to);
         }
         self.trials = self
             .returns

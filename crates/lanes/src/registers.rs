@@ -6,7 +6,7 @@ use super::dispatch::{REGISTERS_PER_BATCH, dispatch};
 use super::lanes::Lanes;
 use super::machine::Instructions;
 
-/// The vector registers that hold the lanes.
+/// The vector registers that hold the lanes: the name of their instruction set and how many motions go at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Registers {
     /// The instruction set's name.
@@ -16,7 +16,7 @@ pub struct Registers {
 }
 
 impl Instructions {
-    /// The registers that this processor has for this instruction set.
+    /// The registers that this processor uses when it is asked for this instruction set.
     pub fn registers(self) -> Registers {
         dispatch(MeasureRegisters, self)
     }

@@ -12,7 +12,8 @@ use nalgebra::{Matrix2, Vector2};
 use super::arc_bounds::{ArcBounds, LinearError};
 use super::cycle::{Cycle, CycleArc};
 
-/// Bounds on the next return of any motion in a ball: velocity and drive angle.
+/// Bounds on the velocity and drive angle of the next return of any motion in a ball about a cycle: what the linear map and
+/// what rounding leaves out.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Remainder {
     /// What the linear map leaves out.
@@ -22,8 +23,8 @@ pub(super) struct Remainder {
 }
 
 impl Cycle {
-    /// Bounds on what the linear map leaves out of the next return of all motions whose return deviates from that of
-    /// the cycle by a vector of `ball`, the image of the unit disc; none if first order says too little of them.
+    /// Bounds on what the linear map leaves out of the next return of all motions whose return deviates from that of the
+    /// cycle by a vector of `ball`, the image of the unit disc; none if the remainder is too large on some arc.
     pub fn remainder(&self, ball: &Matrix2<f64>) -> Option<Remainder> {
         let mut rest = LinearError::default();
         let mut remainder = Remainder::default();
@@ -37,7 +38,7 @@ impl Cycle {
         Some(remainder)
     }
 
-    /// True if no motion of the ball meets another face than the cycle does.
+    /// True if no motion of the ball, the image of the unit disc, meets another face than the cycle does.
     pub fn ball_is_clear(&self, ball: &Matrix2<f64>) -> bool {
         let mut rest = LinearError::default();
         self.arcs.iter().all(|arc| {
@@ -50,7 +51,8 @@ impl Cycle {
         })
     }
 
-    /// True if no motion of the ball meets another face on one arc.
+    /// True if no motion of the ball meets another face than the cycle on one arc; `rest`: remainder at the crossing before
+    /// it.
     fn arc_is_clear(
         &self,
         arc: &CycleArc,
@@ -64,7 +66,7 @@ impl Cycle {
             let late = if is_last { passed.late } else { 0.0 };
             let deviation = passed.deviation(&window.at_start, ball, rest);
             let time = window.step + late;
-            let most = arc.deviation_bounds(&deviation, time, window.growth, &passed.delayed);
+            let most = arc.deviation_bounds(&deviation, time, window.growth, passed.delayed);
             self.windows.is_clear(window, &(most + passed.moved * late))
         })
     }

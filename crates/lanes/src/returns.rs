@@ -7,7 +7,7 @@
 //!
 //! 1. In the norm |P y| with P'P the sum of (M'/g)^k (M/g)^k, g a little above the spectral radius, M contracts by a
 //!    rate r < 1 (Stein).
-//! 2. In a ball of this norm the next return deviates by M d but for K |d|^2. A [`Certificate`] has K from the law's
+//! 2. In a ball of this norm the next return deviates by M d but for K |d|^2. A [`ContractionCertificate`] has K from the law's
 //!    constants, and from the Hermite cubic of each window with its error (Birkhoff and Priver 1967) that no motion of the
 //!    ball reaches another face of its phase.
 //! 3. If the radius is at most r (1 - r) / 2K, the ball is mapped into itself: all its motions make the cycle's crossings
@@ -20,43 +20,60 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::certificate::{Certificate, find_ball};
+use super::certificate::{ContractionCertificate, find_ball};
 use super::contraction_norm::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
-use super::cycle_state::{Drive, Passage};
+use super::cycle_state::{FaceCrossing, Forcing};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
-use super::law::Constants;
+use super::law::PhaseConstants;
 
-/// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
-const MAX_TIME_OFFSET: f64 = 0.25;
-/// Most drive periods between two returns.
-const MAX_PERIODS: f64 = 4.0;
-/// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
-/// next to the first.
-const MAX_RECURRENCE_RATIO: f64 = 0.3;
-/// Drive periods from the beginning of a job to the first recording of returns.
-const PERIODS_BEFORE_RECORDING: f64 = 28.0;
-/// Drive periods from a failed attempt to the next recording of returns, before the first growth.
-const FIRST_PAUSE_PERIODS: f64 = 6.0;
-/// Ratio of the length of each pause to that of the one before.
-const PAUSE_GROWTH: f64 = 1.5;
-/// Drive periods at the end of a job that are never extrapolated.
-const FOLLOWED_LAST_PERIODS: f64 = 2.0;
-/// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
-const MIN_PERIODS_LEFT: f64 = 24.0;
-/// Largest distance between two returns from which the number of returns until they are close is predicted; velocities
-/// in units of the first return's, times as angles of the drive in rad.
-const MAX_PREDICTION_DISTANCE: f64 = 0.3;
-/// Largest distance between two returns, in these units, from which their limit is extrapolated.
-const MAX_EXTRAPOLATION_DISTANCE: f64 = 0.02;
-/// Largest last step of Newton's method, in these units.
-const MAX_LAST_STEP: f64 = 1e-7;
-/// Largest ratio of a step of Newton's method to the one before with which the trial goes on.
-const MAX_STEP_RATIO: f64 = 0.3;
+/// When returns of a lane are recorded, and how close they have to be for their limit to be extrapolated. Distances are of
+/// velocities in units of the first return's, and of times as angles of the drive in rad.
+struct ReturnSettings {
+    /// Drive periods from the beginning of a job to the first recording of returns, and from a failed attempt to the next
+    /// one, before the first growth.
+    periods_before_recording: f64,
+    first_pause_periods: f64,
+    /// Ratio of the length of each pause to that of the one before.
+    pause_growth: f64,
+    /// Most drive periods between two returns, and the largest difference from a whole number of them.
+    max_periods: f64,
+    max_time_offset: f64,
+    /// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
+    /// next to the first.
+    max_recurrence_ratio: f64,
+    /// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
+    min_periods_left: f64,
+    /// Drive periods at the end of a job that are never extrapolated.
+    followed_last_periods: f64,
+    /// Largest distances between two returns from which the number of returns until they are close is predicted, and from
+    /// which their limit is extrapolated.
+    max_prediction_distance: f64,
+    max_extrapolation_distance: f64,
+    /// Largest last step of Newton's method, and the largest ratio of a step to the one before with which it goes on.
+    max_last_step: f64,
+    max_step_ratio: f64,
+}
 
-/// The state of a motion just after an impact.
+const SETTINGS: ReturnSettings = ReturnSettings {
+    periods_before_recording: 28.0,
+    first_pause_periods: 6.0,
+    pause_growth: 1.5,
+    max_periods: 4.0,
+    max_time_offset: 0.25,
+    max_recurrence_ratio: 0.3,
+    min_periods_left: 24.0,
+    followed_last_periods: 2.0,
+    max_prediction_distance: 0.3,
+    max_extrapolation_distance: 0.02,
+    max_last_step: 1e-7,
+    max_step_ratio: 0.3,
+};
+
+/// The state of a motion just after an impact, with time, phase and counts: a return, if the motion makes the same impact
+/// again and again.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Return {
+pub(super) struct PostImpactState {
     pub position: f64,
     pub velocity: f64,
     /// Seconds into the drive period; drive periods left, this one included.
@@ -69,10 +86,10 @@ pub(super) struct Return {
     pub phase: f64,
 }
 
-impl Return {
-    /// The impact that leads to this return, as a crossing from the state after it.
-    fn as_passage(&self) -> Passage {
-        Passage {
+impl PostImpactState {
+    /// The impact that leads to this state, as a crossing of a face.
+    fn as_crossing(&self) -> FaceCrossing {
+        FaceCrossing {
             position: self.position,
             velocity: self.velocity,
             velocity_after: self.velocity,
@@ -83,9 +100,9 @@ impl Return {
     }
 }
 
-/// The recorded returns of one lane and what is known of their limit.
+/// The recorded returns of one lane to an impact, its trial cycle, and what is known of their limit.
 #[derive(Debug, Default)]
-pub(super) struct Returns {
+pub(super) struct ReturnHistory {
     per_period: f64,
     stage: Stage,
     /// Number of returns recorded.
@@ -96,18 +113,18 @@ pub(super) struct Returns {
     /// Drive periods until returns are recorded again after no limit was found.
     pause: f64,
     /// The last returns of the motion itself, not of a trial cycle.
-    own: [Return; RETURNS_PER_GUESS],
+    own: [PostImpactState; RETURNS_PER_GUESS],
     /// What all are measured by: a velocity, drive periods left and a moment in them.
     velocity: f64,
     left: f64,
     moment: f64,
     /// The trial cycle: its first return, its crossings and its derivatives.
-    tried: Return,
-    passages: Vec<Passage>,
+    tried: PostImpactState,
+    passages: Vec<FaceCrossing>,
     cycle: Cycle,
 }
 
-/// What is known of the limit of the returns.
+/// How far the search for the limit of a lane's returns has come.
 #[derive(Debug, Clone, Copy, Default)]
 enum Stage {
     /// Nothing yet.
@@ -116,40 +133,41 @@ enum Stage {
     /// A trial cycle is followed; its distance from the guess before.
     Trial(f64),
     /// The limit cycle, and what is proven of the motions about it.
-    Known(Certificate),
+    Known(ContractionCertificate),
 }
 
-/// What a lane does after a return.
+/// What a lane does after a return: where it goes on, and when its returns are recorded again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ReturnDecision {
     /// Where it goes on, if not where it is.
-    pub resume_at: Option<Return>,
+    pub resume_at: Option<PostImpactState>,
     /// Drive periods left at which its returns are recorded again.
     pub record_again_at: f64,
     /// Drive periods that are extrapolated.
     pub extrapolated_periods: f64,
 }
 
-impl Returns {
-    /// Begins with a job of so many drive periods; how many of them are left when returns are recorded first.
+impl ReturnHistory {
+    /// Begins with a job: `per_period` is 1 / drive period, `left` the number of its drive periods. Returns how many are left
+    /// when returns are recorded first.
     pub fn begin_job(&mut self, per_period: f64, left: f64) -> f64 {
         self.per_period = per_period;
-        (self.every, self.pause) = (1.0, FIRST_PAUSE_PERIODS);
-        self.forget_returns(left - PERIODS_BEFORE_RECORDING)
+        (self.every, self.pause) = (1.0, SETTINGS.first_pause_periods);
+        self.forget_returns(left - SETTINGS.periods_before_recording)
             .record_again_at
     }
 
-    /// Records a crossing of the trial cycle.
-    pub fn record_crossing(&mut self, passage: Passage) {
+    /// Records a crossing of the trial cycle that the lane follows.
+    pub fn record_crossing(&mut self, passage: FaceCrossing) {
         self.passages.push(passage);
     }
 
-    /// Records a return; what the lane does next, if not just to go on.
+    /// Records a return, and decides what the lane does next; none if it just goes on.
     pub fn record(
         &mut self,
-        now: Return,
-        laws: &[Constants],
-        drive: &Drive,
+        now: PostImpactState,
+        laws: &[PhaseConstants],
+        drive: &Forcing,
     ) -> Option<ReturnDecision> {
         match self.stage {
             Stage::Known(certificate) => return self.approach_limit(now, &certificate),
@@ -165,7 +183,7 @@ impl Returns {
         if self.count > 0 {
             let before = self.own[self.count - 1];
             if !self.is_cycle_complete(&before, &now)? {
-                self.every = self.every % MAX_PERIODS + 1.0;
+                self.every = self.every % SETTINGS.max_periods + 1.0;
                 return Some(self.pause_recording(now.left));
             }
             self.each = now.impacts - before.impacts;
@@ -175,7 +193,7 @@ impl Returns {
         if self.count < RETURNS_PER_GUESS {
             return None;
         }
-        if now.left < MIN_PERIODS_LEFT * self.every {
+        if now.left < SETTINGS.min_periods_left * self.every {
             return Some(self.forget_returns(f64::NEG_INFINITY));
         }
         let decision = self.guess_limit();
@@ -185,42 +203,52 @@ impl Returns {
         }))
     }
 
-    /// Whether a cycle is complete from one impact to another; none if it is still under way.
-    fn is_cycle_complete(&self, before: &Return, now: &Return) -> Option<bool> {
+    /// Whether the motion is back at the same impact from one state after an impact to another, in the expected drive
+    /// periods; none if these are not over.
+    fn is_cycle_complete(&self, before: &PostImpactState, now: &PostImpactState) -> Option<bool> {
         let periods = (before.left - now.left) + (now.offset - before.offset) * self.per_period;
-        if periods < self.every - MAX_TIME_OFFSET {
+        if periods < self.every - SETTINGS.max_time_offset {
             return None;
         }
         let made = now.impacts - before.impacts;
         let same = before.position == now.position && before.phase == now.phase;
         let is_first = self.count == 1 && matches!(self.stage, Stage::Open);
-        Some(periods <= self.every + MAX_TIME_OFFSET && same && (is_first || made == self.each))
+        Some(
+            periods <= self.every + SETTINGS.max_time_offset
+                && same
+                && (is_first || made == self.each),
+        )
     }
 
-    /// Drive periods after which the motion comes much closer to its first return than after others; 1 if none does.
+    /// Drive periods after which the motion comes much closer to its first recorded return than after others; 1 if there are
+    /// none.
     fn recurrence_period(&self) -> f64 {
         let [first, rest @ ..] = self.own_points();
         let away = rest.map(|point| (point - first).norm());
         let recurs = match away {
-            [one, two, _] if two < MAX_RECURRENCE_RATIO * one => 2.0,
-            [one, _, three] if three < MAX_RECURRENCE_RATIO * one => 3.0,
+            [one, two, _] if two < SETTINGS.max_recurrence_ratio * one => 2.0,
+            [one, _, three] if three < SETTINGS.max_recurrence_ratio * one => 3.0,
             _ => 1.0,
         };
         let every = self.every * recurs;
-        if every > MAX_PERIODS { 1.0 } else { every }
+        if every > SETTINGS.max_periods {
+            1.0
+        } else {
+            every
+        }
     }
 
-    /// True while a trial cycle is followed.
+    /// True while the lane follows a trial cycle instead of its own motion.
     pub fn is_trial(&self) -> bool {
         matches!(self.stage, Stage::Trial(_))
     }
 
-    /// True if a trial cycle should have come back to its impact long ago.
+    /// True if the trial cycle should have come back to its impact long ago; `left`: drive periods left.
     pub fn is_trial_overdue(&self, left: f64) -> bool {
         self.is_trial() && self.tried.left - left > self.every + 1.0
     }
 
-    /// Ends a trial that leads nowhere: the lane goes on from the last return of its own motion.
+    /// Ends a trial cycle without success: the lane goes on from the last return of its own motion. None if it follows none.
     pub fn end_trial(&mut self) -> Option<ReturnDecision> {
         let to = self.own[RETURNS_PER_GUESS - 1];
         self.is_trial().then(|| ReturnDecision {
@@ -229,20 +257,21 @@ impl Returns {
         })
     }
 
-    /// Records again after a longer pause than before.
+    /// Records no returns for longer than the last time.
     fn pause_recording(&mut self, left: f64) -> ReturnDecision {
-        self.pause *= PAUSE_GROWTH;
+        self.pause *= SETTINGS.pause_growth;
         self.forget_returns(left - self.pause)
     }
 
-    /// Forgets what is known; returns are recorded again when so many periods are left.
+    /// Forgets all returns; they are recorded again when `record_again_at` drive periods are left.
     fn forget_returns(&mut self, record_again_at: f64) -> ReturnDecision {
         (self.stage, self.count) = (Stage::Open, 0);
         ReturnDecision::wait(record_again_at)
     }
 
-    /// Whole drive periods up to a return, and the return as a point (velocity, drive angle).
-    fn return_point(&self, it: &Return) -> (f64, Vector2<f64>) {
+    /// A return as whole drive periods since the first one, and a point of the return map (velocity in units of the first
+    /// one's, drive angle in rad).
+    fn return_point(&self, it: &PostImpactState) -> (f64, Vector2<f64>) {
         let periods = (self.left - it.left) + it.offset * self.per_period;
         let number = ((periods - self.moment) / self.every + 0.5) as i64;
         let whole = number as f64 * self.every;
@@ -254,13 +283,14 @@ impl Returns {
         std::array::from_fn(|index| self.return_point(&self.own[index]).1)
     }
 
-    /// The return at a point (velocity, drive angle), so many returns after the last one of the motion itself.
-    fn return_at(&self, point: Vector2<f64>, times: f64) -> Return {
+    /// The state after an impact at a point (velocity, drive angle) of the return map, `times` returns after the last one of
+    /// the motion itself.
+    fn return_at(&self, point: Vector2<f64>, times: f64) -> PostImpactState {
         let after = &self.own[RETURNS_PER_GUESS - 1];
         let (number, _) = self.return_point(after);
         let periods = point.y / TAU;
         let whole = periods.floor();
-        Return {
+        PostImpactState {
             velocity: point.x * self.velocity,
             offset: (periods - whole) / self.per_period,
             left: self.left - (number + times * self.every + whole),
@@ -271,19 +301,20 @@ impl Returns {
         }
     }
 
-    /// Extrapolates the limit from the motion's own returns and begins a trial there, or waits until they are close.
+    /// Extrapolates the limit from the motion's own returns and begins a trial cycle there, or waits until they are close to
+    /// it; none if they do not approach one.
     fn guess_limit(&mut self) -> Option<ReturnDecision> {
         let first = &self.own[0];
         (self.velocity, self.left) = (first.velocity, first.left);
         self.moment = first.offset * self.per_period;
         let points = self.own_points();
         let step = (points[3] - points[2]).norm();
-        if step >= MAX_PREDICTION_DISTANCE {
+        if step >= SETTINGS.max_prediction_distance {
             return None;
         }
         let (limit, radius) = extrapolate_limit(&points)?;
-        if step > MAX_EXTRAPOLATION_DISTANCE {
-            let wait = (MAX_EXTRAPOLATION_DISTANCE / step).ln() / radius.ln()
+        if step > SETTINGS.max_extrapolation_distance {
+            let wait = (SETTINGS.max_extrapolation_distance / step).ln() / radius.ln()
                 - (RETURNS_PER_GUESS - 1) as f64;
             let left = self.own[RETURNS_PER_GUESS - 1].left;
             return Some(self.forget_returns(left - wait.max(0.0) * self.every));
@@ -291,7 +322,7 @@ impl Returns {
         Some(self.begin_trial(limit, f64::INFINITY))
     }
 
-    /// Begins to follow the trial cycle from a guess of its return.
+    /// Lets the lane follow a trial cycle from a guess of the limit, `step` away from the guess before.
     fn begin_trial(&mut self, guess: Vector2<f64>, step: f64) -> ReturnDecision {
         self.tried = self.return_at(guess, 0.0);
         self.passages.clear();
@@ -302,16 +333,17 @@ impl Returns {
         }
     }
 
-    /// A step of Newton's method from the trial cycle; after the last one, the proof about its limit.
+    /// Makes a step of Newton's method from the trial cycle, which leads to the next trial; after the last one proves that
+    /// returns contract to the limit. None if either fails.
     fn refine_trial(
         &mut self,
-        now: &Return,
+        now: &PostImpactState,
         before: f64,
-        laws: &[Constants],
-        drive: &Drive,
+        laws: &[PhaseConstants],
+        drive: &Forcing,
     ) -> Option<ReturnDecision> {
         let velocity = self.velocity;
-        let begun = self.tried.as_passage();
+        let begun = self.tried.as_crossing();
         self.cycle
             .linearise(laws, drive, (begun, &self.passages), velocity)?;
         let map = self.cycle.map;
@@ -320,8 +352,8 @@ impl Returns {
         let step = inverse * (self.return_point(now).1 - tried);
         let limit = tried + step;
         let length = step.norm();
-        if length > MAX_LAST_STEP || length.is_nan() {
-            let goes_on = length < MAX_STEP_RATIO * before && limit.x > 0.0;
+        if length > SETTINGS.max_last_step || length.is_nan() {
+            let goes_on = length < SETTINGS.max_step_ratio * before && limit.x > 0.0;
             return goes_on.then(|| self.begin_trial(limit, length));
         }
         if spectral_radius(map.trace(), map.determinant()) > 1.0 - MIN_DECAY {
@@ -332,8 +364,13 @@ impl Returns {
         let aside = norm.norm_of(&step);
         let off = self.own_points()[RETURNS_PER_GUESS - 1] - limit;
         let most = norm.norm_of(&off) + aside;
-        let (radius, curvature) = find_ball(&self.cycle, &norm, &inverse, most.max(MAX_LAST_STEP))?;
-        let certificate = Certificate {
+        let (radius, curvature) = find_ball(
+            &self.cycle,
+            &norm,
+            &inverse,
+            most.max(SETTINGS.max_last_step),
+        )?;
+        let certificate = ContractionCertificate {
             limit,
             map,
             norm,
@@ -342,16 +379,23 @@ impl Returns {
             aside,
         };
         if !certificate.is_exact() {
-            return (length < MAX_STEP_RATIO * before).then(|| self.begin_trial(limit, length));
+            return (length < SETTINGS.max_step_ratio * before)
+                .then(|| self.begin_trial(limit, length));
         }
         Some(self.extrapolate_to_end(&certificate))
     }
 
-    /// What the lane does after a return of a motion whose limit is known.
-    fn approach_limit(&mut self, now: Return, certificate: &Certificate) -> Option<ReturnDecision> {
+    /// Decides what a lane does after a return when the limit is known and proven: goes on, or extrapolates.
+    fn approach_limit(
+        &mut self,
+        now: PostImpactState,
+        certificate: &ContractionCertificate,
+    ) -> Option<ReturnDecision> {
         let last = self.own[RETURNS_PER_GUESS - 1];
         let same = last.position == now.position && last.phase == now.phase;
-        if !same || (self.return_point(&now).1 - certificate.limit).norm() > MAX_PREDICTION_DISTANCE
+        if !same
+            || (self.return_point(&now).1 - certificate.limit).norm()
+                > SETTINGS.max_prediction_distance
         {
             return None;
         }
@@ -363,17 +407,17 @@ impl Returns {
         })
     }
 
-    /// Extrapolates all periods but the last at once from the motion's own last return, or waits until that is exact
+    /// Extrapolates all drive periods but the last at once from the motion's own last return, or waits until that is exact
     /// enough.
-    fn extrapolate_to_end(&mut self, certificate: &Certificate) -> ReturnDecision {
+    fn extrapolate_to_end(&mut self, certificate: &ContractionCertificate) -> ReturnDecision {
         let own = self.own[RETURNS_PER_GUESS - 1];
         let off = self.return_point(&own).1 - certificate.limit;
-        let times = ((own.left - FOLLOWED_LAST_PERIODS) / self.every).floor();
+        let times = ((own.left - SETTINGS.followed_last_periods) / self.every).floor();
         let back = |decision| ReturnDecision {
             resume_at: Some(own),
             ..decision
         };
-        if own.left < MIN_PERIODS_LEFT * self.every {
+        if own.left < SETTINGS.min_periods_left * self.every {
             return back(self.forget_returns(f64::NEG_INFINITY));
         }
         let excess = certificate.excess(&off, times);
@@ -381,7 +425,7 @@ impl Returns {
             self.stage = Stage::Known(*certificate);
             let wait = certificate.returns_until_exact(excess);
             return back(ReturnDecision::wait(
-                own.left - (wait * self.every - MAX_TIME_OFFSET),
+                own.left - (wait * self.every - SETTINGS.max_time_offset),
             ));
         }
         let to = self.return_at(certificate.return_after(&off, times), times);
@@ -395,7 +439,7 @@ impl Returns {
 }
 
 impl ReturnDecision {
-    /// Goes on as it is; returns are recorded again when so many drive periods are left.
+    /// The decision to go on as before; returns are recorded again when `record_again_at` drive periods are left.
     fn wait(record_again_at: f64) -> Self {
         Self {
             resume_at: None,

@@ -5,16 +5,15 @@ use std::ops::{ControlFlow, Range};
 use rayon::prelude::*;
 
 use super::dispatch;
-use super::machine::LoweredMachine;
-use super::machine::{Instructions, Job, Outcome};
+use super::machine::{Instructions, Job, LoweredMachine, Outcome};
 use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 
-/// Jobs that one thread follows as a batch: enough for all lanes to be busy nearly to its end. The lanes of a batch share
-/// their rounding, so its size does not depend on the number of threads.
+/// Number of jobs that one thread follows as a batch: enough for all lanes to be busy nearly to its end. The lanes of a batch
+/// share their rounding, so its size does not depend on the number of threads.
 const JOBS_PER_BATCH: usize = 128;
 
-/// Follows all jobs on this thread with the widest instruction set.
+/// Follows the motions of all jobs on this thread with the widest instruction set.
 ///
 /// # Panics
 /// If a job names a machine that is not there.
@@ -26,7 +25,7 @@ pub fn run(
     run_with(Instructions::Widest, machines, jobs, watch)
 }
 
-/// Runs a batch on this thread with the instruction set chosen.
+/// Follows the motions of all jobs on this thread with the instruction set chosen.
 pub fn run_with(
     instructions: Instructions,
     machines: &[LoweredMachine],
@@ -36,8 +35,8 @@ pub fn run_with(
     dispatch::run_jobs(machines, jobs, ObserverHandle::new(watch), instructions)
 }
 
-/// Follows all jobs on this thread, one after another, each alone in one register of at most 256 bits: what a motion
-/// costs without others beside it.
+/// Follows the motions of all jobs on this thread, one after another, each alone in one register of at most 256 bits: what a
+/// motion costs without others beside it.
 ///
 /// # Panics
 /// If a job names a machine that is not there.
@@ -49,9 +48,9 @@ pub fn run_one_by_one(
     dispatch::run_one_by_one(machines, jobs, watch)
 }
 
-/// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
-/// threads. Each part has an observer of its own, which `watch` makes for the jobs in this range; they come
-/// back in order. They are told of jobs by their number in `jobs`.
+/// Follows the motions of all jobs in batches on the threads of rayon's pool, with the same result for any number of threads.
+/// Each batch has an observer of its own, which `watch` makes for the range of its jobs; outcomes and observers come back in
+/// order. Observers are told of jobs by their index in `jobs`.
 ///
 /// # Panics
 /// If a job names a machine that is not there.
@@ -66,7 +65,7 @@ pub fn run_parallel<W: BatchObserver + Send>(
         .enumerate()
         .map(|(part, jobs)| {
             let first = part * JOBS_PER_BATCH;
-            let mut numbered = Numbered {
+            let mut numbered = RenumberedObserver {
                 first,
                 watch: watch(first..first + jobs.len()),
             };
@@ -78,13 +77,13 @@ pub fn run_parallel<W: BatchObserver + Send>(
     (outcomes.concat(), watches)
 }
 
-/// Tells an observer of jobs by their number in the whole.
-struct Numbered<W> {
+/// Passes what happens to a batch on to its observer, with the index of a job among all jobs for that in the batch.
+struct RenumberedObserver<W> {
     first: usize,
     watch: W,
 }
 
-impl<W: BatchObserver> BatchObserver for Numbered<W> {
+impl<W: BatchObserver> BatchObserver for RenumberedObserver<W> {
     const IMPACTS: bool = W::IMPACTS;
     const PERIODS: bool = W::PERIODS;
 

@@ -2,13 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use super::machine::LoweredMachine;
-use super::machine::Outcome;
+use super::machine::{LoweredMachine, Outcome};
 use super::observer::ObserverHandle;
 use softstop::internals::{Mode, Motion};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};
 
-/// A motion where the safe engine takes it over.
+/// The state of a job's motion where the safe engine takes it over from a lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SafeStart {
     pub job: usize,
@@ -20,7 +19,7 @@ pub(super) struct SafeStart {
     pub phase: Option<usize>,
 }
 
-/// A motion where a lane takes it up again, at the beginning of a drive period.
+/// The state of a motion where a lane takes it up again from the safe engine, at the beginning of a drive period.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Resumed {
     pub cycle: u64,
@@ -29,7 +28,7 @@ pub(super) struct Resumed {
     pub phase: usize,
 }
 
-/// The phase in which a motion starts, if it moves in one that lanes can follow.
+/// The phase in which the motion from a start moves; none if it does not move, or in no phase that lanes can follow.
 ///
 /// # Errors
 /// [`MotionError`] if it cannot start there.
@@ -46,7 +45,7 @@ pub(super) fn start_phase(
     Ok(lane_phase(machine, &motion))
 }
 
-/// The phase in which a motion moves, if lanes can follow it there.
+/// The phase in which a motion of the safe engine moves; none if it does not move, or in no phase that lanes can follow.
 fn lane_phase(machine: &LoweredMachine, motion: &Motion) -> Option<usize> {
     match motion.mode() {
         Mode::Moving(phase) if machine.is_for_lanes() => Some(phase.index()),
@@ -54,8 +53,8 @@ fn lane_phase(machine: &LoweredMachine, motion: &Motion) -> Option<usize> {
     }
 }
 
-/// Follows a motion with the safe engine to the next beginning of a drive period at which it moves in a phase that
-/// lanes can follow; none if that is not before its end after `periods`.
+/// Follows a motion with the safe engine to the next beginning of a drive period at which it moves in a phase that lanes can
+/// follow; none if that is not before its end after `periods`.
 pub(super) fn follow_safely(
     machine: &LoweredMachine,
     place: SafeStart,
@@ -93,7 +92,7 @@ pub(super) fn follow_safely(
         let state = motion.state();
         outcome.end = state;
         if counter.watch.periods {
-            counter.watch.tell_period(place.job, cycle, state);
+            counter.watch.observer.tell_period(place.job, cycle, state);
         }
         if cycle < periods
             && let Some(phase) = lane_phase(machine, &motion)
@@ -131,15 +130,15 @@ pub(super) fn follow_safely(
     followed
 }
 
-/// A motion at the end of a drive period, with which later ones are compared: it is renewed when twice as many have gone by,
-/// so that it comes to lie on what the motion settles on (Brent, BIT 20, 1980).
+/// A motion of the safe engine at the end of a drive period, to find that later periods repeat it. It is renewed when twice
+/// as many have gone by, so that it comes to lie on what the motion settles on (Brent, BIT 20, 1980).
 struct KeptPeriod {
     motion: Motion,
     /// Drive periods, impacts and crossings by then.
     counts: [u64; 3],
 }
 
-/// Work of a drive period besides its crossings, in scan windows.
+/// Work of the safe engine in a drive period besides its crossings, in scan windows.
 const WORK_PER_PERIOD: u64 = 16;
 
 struct Counter<'a, 'b> {
@@ -157,6 +156,7 @@ impl Observer for Counter<'_, '_> {
             if self.watch.impacts {
                 let Instant { cycles, offset } = crossing.instant;
                 self.watch
+                    .observer
                     .tell_impact(self.job, cycles as u64, offset, velocity);
             }
         }

@@ -5,16 +5,16 @@ use pulp::Simd;
 use super::cubic::Cubic;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
+use super::law::Laws;
 use super::parts::Parts;
 
-/// Most windows of one scan, after which the lanes that have stopped are decided: about a drive period.
+/// Most windows of one scan, about a drive period; after it the lanes that have stopped decide their windows.
 pub(super) const MAX_SCAN_WINDOWS: usize = 12;
-/// Least distance of the second Bernstein coefficient of a window's cubic from the guard, in units of the cubic's error, in
-/// the first window after a crossing, where the motion leaves the guard: 16/3.
+/// Least distance of the second Bernstein coefficient of a window's cubic from the guard, in units of the cubic's error
+/// bound, that proves a motion clear of the guard that it leaves at the left end.
 pub(super) const LEAVING_MARGIN: f64 = 16.0 / 3.0;
 
-/// Where the scan has brought the lanes.
+/// Where a scan has brought the lanes, and whether they may go on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ScanResult<S: Simd, const N: usize> {
     /// The motion where they stand.
@@ -30,25 +30,9 @@ pub(super) struct ScanResult<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Free and steady part of the motion of all lanes, as signed distances side (x - offset) from their guard at
-    /// `edge`.
+    /// The result of a scan of no windows: all lanes stand where they are, and decide their next window at once.
     #[inline(always)]
-    pub fn motion_parts(&self, law: &Law<S, N>) -> Parts<S, N> {
-        let (cos, sin) = self.state.angle;
-        let p = law.cosine.mul_add(cos, law.sine * sin);
-        let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
-        let side = law.side;
-        Parts {
-            y: side.mul_add(self.state.x - law.offset, -p),
-            u: side.mul_add(self.state.v, -q),
-            p,
-            q,
-        }
-    }
-
-    /// The result of a scan that has not moved: the lanes decide their next window at once.
-    #[inline(always)]
-    pub fn stand_before_window(&self, law: &Law<S, N>, active: Mask<S, N>) -> ScanResult<S, N> {
+    pub fn stand_before_window(&self, law: &Laws<S, N>, active: Mask<S, N>) -> ScanResult<S, N> {
         let parts = self.motion_parts(law);
         ScanResult {
             parts,
@@ -59,12 +43,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Moves the lanes on window by window, on one side of one position or between two, until each stands before a
-    /// window in which something may happen, or that is its last. `cap`: windows up to the end of its time.
+    /// Moves the lanes on window by window, between two positions that end the phase or up to one, until each stands before a
+    /// window in which it may meet them, or which is its last. `cap`: windows up to the end of its time.
     #[inline(always)]
     pub fn scan_windows<const HAS_OTHER_ENDS: bool>(
         &self,
-        law: &Law<S, N>,
+        law: &Laws<S, N>,
         active: Mask<S, N>,
         cap: Lanes<S, N>,
     ) -> ScanResult<S, N> {
@@ -137,7 +121,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 }
 
 impl<S: Simd, const N: usize> ScanResult<S, N> {
-    /// Notes that lanes stand here.
+    /// Notes that some lanes stand here, before the next window.
     #[inline(always)]
     fn stop_lanes(
         &mut self,

@@ -3,18 +3,17 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
-use super::machine::LoweredMachine;
-use super::machine::Outcome;
-use super::returns::Return;
+use super::machine::{LoweredMachine, Outcome};
+use super::returns::PostImpactState;
 use super::sine_cosine::cos_sin;
 use softstop::Start;
 
-/// Drive periods after which a lane computes cos and sin of the drive angle from the time again, not by rotation.
+/// Number of drive periods after which a lane computes cos and sin of the drive angle from the time again, not by rotation.
 const ANGLE_RENEWAL_PERIODS: f64 = 32.0;
 
-/// The state of all lanes.
+/// Position, velocity, phase, time and counts of the motion in every lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct State<S: Simd, const N: usize> {
+pub(super) struct LaneStates<S: Simd, const N: usize> {
     /// Position and velocity.
     pub x: Lanes<S, N>,
     pub v: Lanes<S, N>,
@@ -39,7 +38,7 @@ pub(super) struct State<S: Simd, const N: usize> {
     pub drive: DriveLanes<S, N>,
 }
 
-/// Frequency, period and phase of the drive of each lane.
+/// Frequency, period and initial angle of the drive in every lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DriveLanes<S: Simd, const N: usize> {
     pub frequency: Lanes<S, N>,
@@ -50,8 +49,8 @@ pub(super) struct DriveLanes<S: Simd, const N: usize> {
     pub begin: Pair<S, N>,
 }
 
-impl<S: Simd, const N: usize> State<S, N> {
-    /// The state of lanes without a job.
+impl<S: Simd, const N: usize> LaneStates<S, N> {
+    /// The states of lanes without a job.
     #[inline(always)]
     pub fn idle(simd: S) -> Self {
         let (none, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
@@ -91,7 +90,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         drive.begin.1.set(lane, machine.angle.1);
     }
 
-    /// Puts a lane at the beginning of a drive period, `left` ones being left.
+    /// Puts a lane into a state at the beginning of a drive period, with `left` periods of its job left.
     #[inline(always)]
     pub fn begin_period(&mut self, lane: usize, state: Start, phase: usize, left: u64) {
         self.x.set(lane, state.position);
@@ -104,7 +103,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.window_fraction.set(lane, 1.0);
     }
 
-    /// Leaves a lane without a job.
+    /// Marks a lane as without a job.
     #[inline(always)]
     pub fn end_job(&mut self, lane: usize) {
         self.left.set(lane, 0.0);
@@ -125,9 +124,9 @@ impl<S: Simd, const N: usize> State<S, N> {
         }
     }
 
-    /// The state of a lane just after an impact.
-    pub fn return_of(&self, lane: usize) -> Return {
-        Return {
+    /// The present state of a lane, just after an impact.
+    pub fn post_impact_state(&self, lane: usize) -> PostImpactState {
+        PostImpactState {
             position: self.x.get(lane),
             velocity: self.v.get(lane),
             offset: self.offset.get(lane),
@@ -139,8 +138,8 @@ impl<S: Simd, const N: usize> State<S, N> {
         }
     }
 
-    /// Puts a lane into the state after an impact.
-    pub fn set_return(&mut self, lane: usize, to: Return) {
+    /// Puts a lane into a state just after an impact, of its own motion or extrapolated.
+    pub fn set_post_impact_state(&mut self, lane: usize, to: PostImpactState) {
         self.x.set(lane, to.position);
         self.v.set(lane, to.velocity);
         self.offset.set(lane, to.offset);
@@ -158,7 +157,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.angle.1.set(lane, sin);
     }
 
-    /// Adds the impacts and crossings that a lane has counted, once.
+    /// Moves the numbers of impacts and crossings that a lane has counted into an outcome.
     #[inline(always)]
     pub fn take_counts(&mut self, lane: usize, outcome: &mut Outcome) {
         outcome.impacts += self.impacts.get(lane) as u64;
@@ -167,7 +166,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.crossings.set(lane, 0.0);
     }
 
-    /// Computes the drive angle of these lanes from the time.
+    /// Computes the drive angle of some lanes from the time since the beginning of their drive period.
     #[inline(always)]
     fn renew_angle(&mut self, lanes: Mask<S, N>) {
         let (c, s) = cos_sin(self.offset * self.drive.per_period);
@@ -176,15 +175,15 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.angle.1 = lanes.choose(s0 * c + c0 * s, self.angle.1);
     }
 
-    /// How often the drive angle was to be computed from the time so far.
+    /// How often each lane has had to compute the drive angle from the time so far, by the periods that are complete.
     #[inline(always)]
     fn angle_renewals(&self) -> Lanes<S, N> {
         let done = self.periods - self.left;
         (done * done.like(1.0 / ANGLE_RENEWAL_PERIODS)).floor()
     }
 
-    /// Counts the ends of drive periods that have passed. Every few periods of its own, whatever the others do, a lane
-    /// computes its drive angle from the time.
+    /// Moves lanes whose time has passed the end of a drive period into the next one, and computes the drive angle from the
+    /// time every [`ANGLE_RENEWAL_PERIODS`] of a lane's own periods.
     #[inline(always)]
     pub fn count_periods(&mut self) {
         let one = self.left.like(1.0);

@@ -2,11 +2,13 @@
 
 use pulp::Simd;
 
-use super::lanes::Lanes;
-use super::law::Law;
+use super::engine::Engine;
+use super::lanes::{Lanes, Mask};
+use super::law::Laws;
 use super::parts::Parts;
+use super::scan::ScanResult;
 
-/// The window that is decided, or the first part of it.
+/// The window that each lane decides next, or the first part of it, with the motion at its ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WindowAhead<S: Simd, const N: usize> {
     pub frequency: Lanes<S, N>,
@@ -20,20 +22,53 @@ pub(super) struct WindowAhead<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> WindowAhead<S, N> {
-    /// The motion at a time within the window.
+    /// Free and steady part of the motion a time after the beginning of the window.
     #[inline(always)]
-    pub fn motion_at(&self, law: &Law<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
+    pub fn motion_at(&self, law: &Laws<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
         self.here
             .within_window(law, self.frequency, &self.next, time)
     }
 
-    /// Position from the edge, velocity and acceleration.
+    /// Position from the guard's edge, velocity and acceleration of a motion given by its parts.
     #[inline(always)]
-    pub fn state_from_edge(&self, law: &Law<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {
+    pub fn state_from_edge(&self, law: &Laws<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {
         [
             parts.y + (parts.p - law.edge),
             parts.u + parts.q,
             parts.acceleration(law, self.frequency),
         ]
+    }
+}
+
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
+    /// The window ahead of all lanes, of which the lanes `pending` decide the first `span` seconds.
+    #[inline(always)]
+    pub fn window_ahead(
+        &self,
+        law: &Laws<S, N>,
+        reached: &ScanResult<S, N>,
+        pending: Mask<S, N>,
+        span: Lanes<S, N>,
+    ) -> WindowAhead<S, N> {
+        let frequency = self.state.drive.frequency;
+        let here = reached.parts;
+        let next = reached.next;
+        let (mut there, mut scale) = (next, span.like(1.0));
+        let part = pending & span.below(law.window);
+        if part.any() {
+            let at = here.within_window(law, frequency, &next, part.choose(span, law.window));
+            there = Parts::choose(part, &at, &next);
+            let share = span * law.per_window;
+            let square = share * share;
+            scale = part.choose(square * square, scale);
+        }
+        WindowAhead {
+            frequency,
+            here,
+            there,
+            next,
+            span,
+            scale,
+        }
     }
 }

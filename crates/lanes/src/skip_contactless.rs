@@ -11,11 +11,11 @@ use super::scan::ScanResult;
 const UNSKIPPED_PERIODS: f64 = 4.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves the active lanes that stand before nothing, or only before the end of a period, on to the last periods of
-    /// their job if they never meet a face: the free motion dies away, and the largest sum of it and the steady one
-    /// lies below the guard. An observer is told of the periods that are skipped.
+    /// Moves active lanes on to the last drive periods of their job if they provably never meet a face again: their free
+    /// motion dies away, and the largest sum of it and the steady motion lies below the guard. An observer is told of the
+    /// skipped periods.
     #[inline(always)]
-    pub fn skip_calm_periods<const HAS_OTHER_ENDS: bool>(
+    pub fn skip_contactless_periods<const HAS_OTHER_ENDS: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -32,52 +32,62 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         } else {
             ceiling
         };
-        let calm =
+        let skipped =
             active & zero.below(reached.count) & far.below(room - law.ambiguity) & last.below(left);
-        if !calm.any() {
+        if !skipped.any() {
             return;
         }
         if self.task.watch.periods {
-            self.tell_calm_periods(phase, calm, reached);
+            self.tell_skipped_periods(phase, skipped, reached);
         }
-        self.count_calm_periods(calm);
+        self.count_skipped_periods(skipped);
         let law = &self.laws[phase];
         let time = (left - last) * self.state.drive.period;
         let frequency = self.state.drive.frequency;
-        let (y, u) = Parts::free_after(law, frequency, calm.choose(time, zero), (parts.y, parts.u));
+        let (y, u) = Parts::free_after(
+            law,
+            frequency,
+            skipped.choose(time, zero),
+            (parts.y, parts.u),
+        );
         let later = Parts { y, u, ..parts };
-        reached.parts = Parts::choose(calm, &later, &parts);
-        reached.go = reached.go | calm;
-        self.state.left = calm.choose(last, left);
+        reached.parts = Parts::choose(skipped, &later, &parts);
+        reached.go = reached.go | skipped;
+        self.state.left = skipped.choose(last, left);
     }
 
-    /// Counts the periods that these lanes skip, unless they follow a trial cycle.
+    /// Counts the periods that lanes without further contact skip, unless they follow a trial cycle.
     #[cold]
     #[inline(never)]
-    fn count_calm_periods(&mut self, calm: Mask<S, N>) {
+    fn count_skipped_periods(&mut self, skipped: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
-            if calm.get(lane) && !self.returns[lane].is_trial() {
+            if skipped.get(lane) && !self.returns[lane].is_trial() {
                 self.count_skipped(lane, self.state.left.get(lane) - UNSKIPPED_PERIODS);
             }
         }
     }
 
-    /// Tells the observer of all ends of periods that lanes skip.
+    /// Tells the observer of the beginnings of all periods that lanes without further contact skip.
     #[inline(always)]
-    fn tell_calm_periods(&mut self, phase: usize, calm: Mask<S, N>, reached: &ScanResult<S, N>) {
+    fn tell_skipped_periods(
+        &mut self,
+        phase: usize,
+        skipped: Mask<S, N>,
+        reached: &ScanResult<S, N>,
+    ) {
         let law = &self.laws[phase];
         let drive = self.state.drive;
         let Parts { y, u, .. } = reached.parts;
         let (zero, one, last) = (y.like(0.0), y.like(1.0), y.like(UNSKIPPED_PERIODS));
         let rest = drive.period - (self.state.offset + reached.count * law.window);
-        let mut free = Parts::free_after(law, drive.frequency, calm.choose(rest, zero), (y, u));
+        let mut free = Parts::free_after(law, drive.frequency, skipped.choose(rest, zero), (y, u));
         let (xx, vx) = Parts::free_after(law, drive.frequency, drive.period, (one, zero));
         let (xv, vv) = Parts::free_after(law, drive.frequency, drive.period, (zero, one));
         let (cos, sin) = drive.begin;
         let p = law.cosine.mul_add(cos, law.sine * sin);
         let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
         let (side, offset) = (law.side, law.offset);
-        let (mut told, mut left) = (calm, self.state.left);
+        let (mut told, mut left) = (skipped, self.state.left);
         while told.any() {
             let x = side.mul_add(free.0 + p, offset);
             let v = side * (free.1 + q);
