@@ -6,7 +6,8 @@ use softstop::Start;
 use softstop::internals::budget;
 use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome};
 
-/// Follows a batch of motions (machine number, state, drive periods) in the lanes; none if the monitor stopped it.
+/// Follows motions (machine index, state, drive periods) in the lanes on this thread and charges their work to the budget; none
+/// if `ask` or the budget ended the batch.
 pub(crate) fn follow_batch<W: BatchObserver>(
     machines: &[LoweredMachine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,
@@ -30,14 +31,14 @@ pub(crate) fn follow_batch<W: BatchObserver>(
     asking.answer.is_continue().then_some(outcomes)
 }
 
-/// Work of the lanes, and of the engine that takes over, between two questions to a batch's monitor.
+/// Work of the lanes and the safe engine, in scan windows, between two questions to a batch's monitor.
 const WORK_BETWEEN_QUESTIONS: u64 = 1 << 15;
-/// Charge for a unit of the lanes' own work in a batch, in scan windows.
+/// Charge to the budget for a unit of the lanes' own work, in scan windows.
 const LANE_WORK_COST: u64 = 2;
-/// Charge for a batch besides its work, in scan windows: it may end before the first question.
+/// Charge to the budget for a batch besides its work, in scan windows: it may end before the first question.
 const BATCH_COST: u64 = 1 << 10;
 
-/// An observer of a batch that charges its work to the budget and asks a monitor whether the batch goes on.
+/// Passes on to an observer what happens in a batch, charges its work to the budget, and asks a monitor.
 struct MonitoredObserver<'a, W, A> {
     watch: &'a mut W,
     ask: A,

@@ -14,13 +14,14 @@ use softstop::internals::budget;
 use softstop::{Instant, MotionError, Start};
 use softstop_lanes::{BatchObserver, LoweredMachine};
 
-/// Members of an ensemble that one thread advances at a time: several times as many as there are lanes.
+/// Number of members of an ensemble that one thread advances at a time: several times as many as there are lanes.
 const MEMBERS_AT_ONCE: usize = 64;
 
-/// Drive periods between two questions to the monitor, a third of a second, in lanes and elsewhere.
+/// Drive periods between two questions to the monitor, for members that run in lanes and for others: a third of a second.
 const PERIODS_BETWEEN_QUESTIONS: (u64, u64) = (1 << 16, 256);
 
-/// The machines of many motions that are advanced together, their monitor, and how much work has been done.
+/// Many motions that are advanced together: their machines, the monitor, and how much work has been done. The motions themselves
+/// are [`Member`]s, which the caller holds.
 pub struct Ensemble<'a> {
     pub(crate) machines: Cow<'a, [LoweredMachine]>,
     monitor: Monitor<'a>,
@@ -30,7 +31,7 @@ pub struct Ensemble<'a> {
 }
 
 impl<'a> Ensemble<'a> {
-    /// An ensemble of motions of these machines.
+    /// An ensemble of motions of these machines, to which members refer by their index.
     pub fn new(machines: impl Into<Cow<'a, [LoweredMachine]>>, monitor: Monitor<'a>) -> Self {
         Self {
             machines: machines.into(),
@@ -45,17 +46,17 @@ impl<'a> Ensemble<'a> {
         self.machines[0].is_for_lanes()
     }
 
-    /// True if the lanes leap over periods of settled motions, so that long motions cost as little as short ones.
+    /// True if the lanes skip drive periods of settled motions, so that long motions cost as little as short ones.
     pub(crate) fn skips_periods(&self) -> bool {
         self.machines[0].skips_periods()
     }
 
-    /// The work that the ensemble has counted, in drive periods or what else its owner counts.
+    /// The work that was counted so far, in the caller's unit: drive periods, or cells.
     pub(crate) fn work_done(&self) -> u64 {
         self.done.load(Ordering::Relaxed)
     }
 
-    /// Counts work of the ensemble and asks the monitor; an error if that wants to stop, or the budget is spent.
+    /// Counts work in the caller's unit and asks the monitor; an error if the monitor ends the work or the budget is spent.
     pub(crate) fn count_work(&self, periods: u64) -> Result<(), OrbitError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
         match (self.monitor)(done, self.planned.max(done)) {
@@ -64,7 +65,8 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Advances the open members by drive periods on all threads and records their states of the last `recorded` ones.
+    /// Advances the open members by some drive periods, on all threads, and records their states after each of the last
+    /// `recorded` ones.
     pub(crate) fn advance<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -76,7 +78,7 @@ impl<'a> Ensemble<'a> {
         })
     }
 
-    /// Advances some members on this thread, in stretches between which the monitor is asked.
+    /// Advances some members on this thread as [`Ensemble::advance`] does, and asks the monitor between stretches of time.
     fn advance_together<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -101,7 +103,8 @@ impl<'a> Ensemble<'a> {
         self.count_work(recorded * self.advance_batch::<false, true, _>(members, recorded)?)
     }
 
-    /// Advances open members on this thread and records states and impacts of the last `recorded` periods.
+    /// Advances the open members by some drive periods, on this thread, and records states and impacts of the last `recorded`
+    /// ones.
     pub(crate) fn record_run<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -120,8 +123,8 @@ impl<'a> Ensemble<'a> {
         Ok(())
     }
 
-    /// Advances the open members by drive periods in one batch on this thread and returns how many they are; they
-    /// record impacts if `IMPACTS`, and states at the ends of periods if `PERIODS`.
+    /// Advances those members that are open by some drive periods, in one batch on this thread, and returns how many they are;
+    /// they record impacts if `IMPACTS`, and states at the ends of periods if `PERIODS`.
     ///
     /// # Errors
     /// [`OrbitError::Stopped`].
@@ -153,7 +156,7 @@ impl<'a> Ensemble<'a> {
     }
 }
 
-/// The open members of a batch, in order, each of which records what happens to it.
+/// The members of a batch that are open, in order: an observer that lets each record what happens to it.
 struct OpenMembers<'a, const IMPACTS: bool, const PERIODS: bool, M>(Vec<&'a mut M>);
 
 impl<const IMPACTS: bool, const PERIODS: bool, M: HasMember> BatchObserver
@@ -172,10 +175,10 @@ impl<const IMPACTS: bool, const PERIODS: bool, M: HasMember> BatchObserver
     }
 }
 
-/// Charge for an impact or a state that a member keeps, in scan windows.
+/// Charge to the budget for an impact or a state that a member records, in scan windows.
 pub(crate) const RECORD_COST: u64 = 32;
 
-/// What a member of an ensemble, a motion, has come to.
+/// What the motion of a member of an ensemble has come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MemberStatus {
     /// It is still under way.
@@ -193,7 +196,7 @@ pub enum MemberStatus {
 }
 
 impl MemberStatus {
-    /// The number of the attractor at which the motion has arrived, or will.
+    /// The index of the attractor at which the motion has arrived, or which it approaches; none otherwise.
     pub(crate) fn attractor(self) -> Option<usize> {
         match self {
             Self::Arrived(attractor) | Self::Approaching(attractor) => Some(attractor),
@@ -201,7 +204,7 @@ impl MemberStatus {
         }
     }
 
-    /// True as long as the motion may still come to something else, so that it is advanced further.
+    /// True as long as the motion may come to something else, so that it is advanced further.
     pub(crate) fn is_open(self) -> bool {
         matches!(self, Self::Open | Self::Approaching(_) | Self::Wandering)
     }
@@ -237,18 +240,18 @@ impl Member {
         }
     }
 
-    /// Ends a member as lost, with the error that says why.
+    /// Marks the member as lost, with the error for which its motion cannot be computed.
     pub(crate) fn mark_lost(&mut self, error: MotionError) {
         (self.status, self.error) = (MemberStatus::Lost, Some(error));
     }
 }
 
-/// A type that holds a member of an ensemble and takes its impacts and states, which the member records by default.
+/// A type that holds a member of an ensemble, and may do something else with its impacts and states than record them.
 pub trait HasMember: Send {
     /// The member that it holds.
     fn member_mut(&mut self) -> &mut Member;
 
-    /// Takes an impact of the member: its instant since the batch began, and its velocity in m/s towards the stop.
+    /// Records an impact of the member: its instant since the batch began, and its velocity in m/s towards the stop.
     fn record_impact(&mut self, instant: Instant, velocity: f64) {
         // What is kept costs, so that a budget is one of memory, too.
         if budget::charge(RECORD_COST) {
@@ -256,7 +259,7 @@ pub trait HasMember: Send {
         }
     }
 
-    /// Takes the state of the member at the end of a drive period.
+    /// Records the state of the member at the end of a drive period.
     fn record_state(&mut self, state: Start) {
         self.member_mut().states.push(state);
     }

@@ -4,7 +4,7 @@ use crate::cycle_metrics::{CycleMetrics, depth_beyond_strip, peak_stop_force};
 use crate::orbit::Orbit;
 use softstop::{Dimension, MotionError, Scene, Stop};
 
-/// The side of a bound on which a figure is good.
+/// The sense in which a figure is better: the side of a bound on which its values are good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sense {
     /// The bound is a least value: more is better.
@@ -15,7 +15,7 @@ pub enum Sense {
 
 macro_rules! figures {
     ($($figure:ident $name:literal, $dimension:ident, $sense:ident, $trial:literal, $meaning:literal;)*) => {
-        /// A figure of a motion and of its machine.
+        /// A figure of a motion and of its machine, which studies tell and tasks of optimisation bound or improve.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum Figure {
@@ -83,7 +83,7 @@ figures! {
 }
 
 impl Figure {
-    /// The figure of this name.
+    /// The figure with this key; none if no figure has it.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|it| it.name() == name)
     }
@@ -100,7 +100,8 @@ impl Figure {
         }
     }
 
-    /// The figure's value in SI units, NaN if the motion has none; nothing if it takes a zone, trials or a formula.
+    /// The figure's value in SI units by an orbit and its `stroke`, the metrics of its cycle: NaN if the motion has none; none if
+    /// the figure takes a zone, trials or a formula.
     pub fn of_motion(self, orbit: &Orbit, stroke: &CycleMetrics) -> Option<f64> {
         Some(match self {
             Self::Velocity => stroke.impact_velocity,
@@ -130,7 +131,7 @@ impl Figure {
         })
     }
 
-    /// The figure's value as of [`Figure::of_motion`], without what other figures take.
+    /// The figure's value in SI units as [`Figure::of_motion`] has it, computing only what this figure needs of the orbit.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
@@ -144,12 +145,12 @@ impl Figure {
         })
     }
 
-    /// True if a motion tells the figure by itself, without its zone and without trials.
+    /// True if the motion alone determines the figure, without its zone and without trials.
     pub const fn is_of_motion(self) -> bool {
         !self.is_trial() && !self.is_margin()
     }
 
-    /// True if the figure is a distance from where the motion is lost.
+    /// True if the figure is a distance in frequency or another parameter from where the motion is lost.
     pub const fn is_margin(self) -> bool {
         matches!(
             self,
@@ -164,7 +165,7 @@ impl Figure {
     }
 }
 
-/// Deflection in m of a machine's stop at a position of the mass; none if it has no stop that gives way.
+/// The figure of the stop's deflection in m at a position of the mass; none if no stop of the scene gives way.
 fn stop_deflection(scene: &Scene, position: f64) -> Option<f64> {
     match scene.stop {
         Stop::None | Stop::Rigid { .. } => None,

@@ -63,11 +63,11 @@ pub use zone::Zone;
 /// What sibling crates share beyond this page, without any promise.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::attractors::region::evenly_spread_point;
     pub use crate::continuation::period_map::advance_in_period;
     pub use crate::cycle_metrics::peak_contact_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
+    pub use crate::points::evenly_spread_point;
     pub use crate::zone::FrequencyFamily;
     pub use crate::zone::followed_end::{LONGEST_BRANCH, find_end};
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Const, DMatrix, DVector, DimMin};
 
-/// Solves A x = b by LU; two or three equations as matrices of fixed size, without the heap.
+/// Solves A x = b by LU decomposition, systems of two or three equations without the heap; none if the matrix is singular.
 pub(crate) fn solve_linear(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
     match right.len() {
         2 => solve_fixed::<2>(matrix, right),
@@ -11,7 +11,7 @@ pub(crate) fn solve_linear(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Optio
     }
 }
 
-/// The solution of a linear system with N unknowns.
+/// Solves a system of N linear equations by LU decomposition with matrices of fixed size.
 fn solve_fixed<const N: usize>(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>>
 where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,

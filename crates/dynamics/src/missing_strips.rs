@@ -9,9 +9,10 @@ use crate::ensemble::Member;
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
 use crate::parallel;
-use crate::strokes::InterruptedMotion;
 pub use crate::strokes::StrokeCount;
-use softstop::{CheckedScene, MotionError, Piercing, Scene};
+use crate::strokes::StrokeObserver;
+use softstop::internals::Motion;
+use softstop::{CheckedScene, Instant, MotionError, Piercing, Scene};
 use softstop_lanes::LoweredMachine;
 
 /// Position of the stop while there is no strip.
@@ -41,12 +42,12 @@ impl StopWithoutStrip {
     }
 }
 
-/// A run of strips missing in a row, which began at one drive angle, and what the motion did.
+/// A run of strips missing in a row, from one drive angle on, and whether the motion came back after it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StripGap {
-    /// Drive angle in rad at which the strip is missing first and is there again some drive periods later; where a
-    /// strip or stop is touched just then, it is so from the next stroke on.
+    /// Drive angle in rad at which the strip is missing first and is there again some drive periods later; where a strip or stop
+    /// is touched just then, it is so from the next stroke on.
     pub angle: f64,
     /// Whether the motion came back after the gap.
     pub comes_back: bool,
@@ -54,7 +55,7 @@ pub struct StripGap {
     pub missed: u64,
 }
 
-/// What became of a motion after gaps of missing strips, one for each drive angle.
+/// What became of a motion after gaps of missing strips, one gap for each of several drive angles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StripSurvival {
@@ -65,19 +66,19 @@ pub struct StripSurvival {
 }
 
 impl StripSurvival {
-    /// Share of the drive angles at which strips may go missing and the motion comes back.
+    /// Share of the drive angles from which strips may go missing so that the motion comes back.
     pub fn return_share(&self) -> f64 {
         let back = self.gaps.iter().filter(|gap| gap.comes_back).count();
         back as f64 / self.gaps.len() as f64
     }
 }
 
-/// Gaps of missing strips whose motions are followed together; it may not depend on how many threads there are.
+/// Number of gaps of missing strips whose motions are followed together; it does not depend on how many threads there are.
 const GAPS_TOGETHER: usize = 256;
 
-/// A stable motion of a loaded machine from which `missing` strips are taken in a row: it runs as it does until one of
-/// so many drive angles, evenly spread over its period, then goes on without strips for as many drive periods, then
-/// with them. Whether it comes back each time, and what it misses. Without a strip in the scene nothing is missing.
+/// Follows a stable motion of a loaded machine from which `missing` strips are taken in a row, beginning at each of so many drive
+/// angles, evenly spread over its period: whether it comes back after the gap, and how many strokes it misses. Without a strip in
+/// the scene nothing is missing.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
@@ -122,8 +123,8 @@ pub fn survives_missing_strips(
     })
 }
 
-/// The motion of an orbit through a gap of missing strips that begins when the drive has turned by `turned` rad since the
-/// orbit's time 0, to the end of the drive period in which strips are there again.
+/// Follows the motion of an orbit through a gap of missing strips, from where the drive has turned by `turned` rad since the
+/// orbit's time 0 to the end of the drive period in which strips are there again.
 fn run_through_gap(
     orbit: &Orbit,
     without: &CheckedScene,
@@ -151,4 +152,59 @@ fn run_through_gap(
     run.switch_strips(scene)?;
     run.advance_period(false)?;
     Ok(run)
+}
+
+/// Most drive periods for which strips wait to change until the mass is before the clearance.
+const MAX_PERIODS_BEYOND: u64 = 16;
+
+/// A motion of an orbit through a gap of missing strips, with its strokes counted.
+struct InterruptedMotion {
+    motion: Motion,
+    clearance: f64,
+    /// The instant at which the gap begins.
+    begin: Instant,
+    /// Drive periods that are complete since then.
+    periods: u64,
+    /// Its strokes, by times since the orbit's time 0.
+    strokes: StrokeCount,
+}
+
+impl InterruptedMotion {
+    /// Goes on with a scene with or without strips from where the mass is clear of them.
+    fn switch_strips(&mut self, to: &CheckedScene) -> Result<(), MotionError> {
+        let last = self.periods + MAX_PERIODS_BEYOND;
+        while self.motion.state().position >= self.clearance && self.periods < last {
+            if self.advance_period(true)? {
+                break;
+            }
+        }
+        self.motion = Motion::new(to, self.motion.now(), self.motion.state())?;
+        Ok(())
+    }
+
+    /// Advances by a drive period; if it `stops`, only to where the mass leaves strip or stop: true then.
+    fn advance_period(&mut self, stops: bool) -> Result<bool, MotionError> {
+        let cycles = self.begin.cycles + (self.periods + 1) as f64;
+        let left = self.count_strokes(
+            Instant {
+                cycles,
+                ..self.begin
+            },
+            stops,
+        )?;
+        self.periods += u64::from(!left);
+        Ok(left)
+    }
+
+    /// Advances to an instant, counting missed strokes; if it `stops`, only to where the mass leaves strip or stop: true then.
+    fn count_strokes(&mut self, until: Instant, stops: bool) -> Result<bool, MotionError> {
+        let mut watch = StrokeObserver {
+            clearance: self.clearance,
+            period: self.motion.clock().period(),
+            strokes: &mut self.strokes,
+            stops,
+            left: false,
+        };
+        Ok(self.motion.watch(until, &mut watch)?.is_break())
+    }
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use softstop::internals::budget;
 
-/// A function that is told how much work is done, and of how much at most, and says whether the work goes on.
+/// A function that is told how much of some work is done, and of how much at most, and says whether the work goes on.
 pub type Monitor<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
 
 /// A [`Monitor`] that never stops the work.
@@ -16,7 +16,7 @@ pub fn unmonitored(_: u64, _: u64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Break if something holds, else continue.
+/// The answer of a monitor that breaks if a condition holds, and continues otherwise.
 pub fn stop_if(holds: bool) -> ControlFlow<()> {
     match holds {
         true => ControlFlow::Break(()),
@@ -24,7 +24,7 @@ pub fn stop_if(holds: bool) -> ControlFlow<()> {
     }
 }
 
-/// A store of finished pieces of long work, from which it resumes.
+/// A store of finished pieces of long work, by which interrupted work is resumed.
 pub trait Memory: Sync {
     /// The stored piece under this key, if there is one.
     fn recall_piece(&self, key: &[u8]) -> Option<Vec<u8>>;
@@ -35,10 +35,10 @@ pub trait Memory: Sync {
 /// The store of finished pieces, if there is one.
 pub type OptionalMemory<'a> = Option<&'a dyn Memory>;
 
-/// Duration of work whose result is stored as one piece.
+/// Computing time after which a part of long work is stored as one piece.
 pub(crate) const PIECE_DURATION: Duration = Duration::from_millis(250);
 
-/// A value as bytes, in CBOR (RFC 8949).
+/// The bytes of a key or a piece of work as a [`Memory`] stores them, in CBOR (RFC 8949).
 ///
 /// # Errors
 /// If the value refuses to be written.
@@ -48,8 +48,8 @@ pub fn to_bytes(value: &impl Serialize) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// A piece of work: recalled if it is stored, else computed now and stored, unless the [`budget`] is spent by then. It
-/// must follow from its key. What it costs is charged in both cases.
+/// The result of a piece of work: recalled if it is stored under its key, else computed and stored, unless the [`budget`] is
+/// spent by then. It must follow from its key. What it costs is charged in both cases.
 ///
 /// # Errors
 /// Those of the work, which is not kept then.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::orbit::{ImpactCount, ImpactPattern, Orbit, Regime};
 
-/// The kind of motion that a start settles on.
+/// The kind of motion that a start settles on: periodic with its regime, at rest, chaotic, unsettled or lost.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionKind {
@@ -42,7 +42,8 @@ impl MotionKind {
         Self::from_regime(orbit.regime(), orbit.pattern())
     }
 
-    /// The kind of a motion that repeats, by its regime (of chatter the impacts before summed ones) and pattern.
+    /// The kind of a motion that repeats, by its regime (of chatter: of the impacts before summed ones) and impacts in each drive
+    /// period.
     pub fn from_regime(regime: Regime, order: ImpactPattern) -> Self {
         let periods = regime.periods;
         match order.counts_per_period().contains(&ImpactCount::Infinite) {
@@ -51,7 +52,7 @@ impl MotionKind {
         }
     }
 
-    /// The regime z = p/n of the motion, unless its impacts are without number or it does not repeat.
+    /// The regime z = p/n of the motion; none if it does not repeat or chatters completely.
     pub fn regime(&self) -> Option<Regime> {
         match self {
             Self::Periodic { regime, .. } => Some(*regime),
@@ -59,7 +60,7 @@ impl MotionKind {
         }
     }
 
-    /// The regime z = p/n as JSON and CSV have it: `2/3`, `1` for 1/1, `∞/n` for complete chatter.
+    /// The regime z = p/n as text in JSON and CSV: `2/3`, `1` for 1/1, `∞/n` for complete chatter; none if it does not repeat.
     pub fn z(&self) -> Option<String> {
         match self {
             Self::Periodic { regime, .. } => Some(regime.to_string()),
@@ -69,7 +70,7 @@ impl MotionKind {
         }
     }
 
-    /// Drive periods after which the motion repeats, if it does.
+    /// Number of drive periods after which the motion repeats; none if it does not.
     pub fn periods(&self) -> Option<u64> {
         match self {
             Self::Periodic { regime, .. } => Some(regime.periods),
@@ -78,7 +79,7 @@ impl MotionKind {
         }
     }
 
-    /// The impacts of the motion in each drive period, if it repeats.
+    /// Numbers of impacts of the motion in each drive period; none if it does not repeat.
     pub fn order(&self) -> Option<&ImpactPattern> {
         match self {
             Self::Periodic { order, .. } | Self::Chatter { order, .. } => Some(order),
@@ -86,13 +87,13 @@ impl MotionKind {
         }
     }
 
-    /// The impacts in each drive period where the regime alone does not tell them: of more than one period.
+    /// Numbers of impacts in each drive period of a motion of several periods, where the regime alone does not tell them.
     pub fn order_beyond_regime(&self) -> Option<&ImpactPattern> {
         self.order()
             .filter(|order| order.counts_per_period().len() > 1)
     }
 
-    /// True if the motion is chaotic, for ever or for long.
+    /// True if the motion is chaotic, permanently or transiently.
     pub fn is_chaotic(&self) -> bool {
         matches!(self, Self::Chaos | Self::TransientChaos)
     }
@@ -153,7 +154,7 @@ impl fmt::Display for MotionKind {
 
 macro_rules! classes {
     ($($(#[$what:meta])* $class:ident $name:literal;)*) => {
-        /// Motions of one colour.
+        /// A class of motions that have one colour in charts.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum MotionClass {
             $($(#[$what])* $class),*

@@ -8,7 +8,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use rayon::prelude::*;
 use softstop::internals::budget::SharedBudget;
 
-/// Does work with each number below `count`.
+/// Calls a function with each number below `count`, on all threads.
 fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
     let budget = SharedBudget::of_this_thread();
     let part = |index| budget.run_part(|| work(index));
@@ -16,7 +16,7 @@ fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
     budget.charge_parts();
 }
 
-/// The values of a function of the numbers below `count`, in order.
+/// The values of a function of the numbers below `count`, computed on all threads, in order.
 pub fn map_indices<T: Send + Sync>(count: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
     let mut values: Vec<OnceLock<T>> = Vec::new();
     values.resize_with(count, OnceLock::new);
@@ -30,12 +30,12 @@ pub fn map_indices<T: Send + Sync>(count: usize, of: &(dyn Fn(usize) -> T + Sync
     found
 }
 
-/// The values of a function of some elements, in order.
+/// The values of a function of some elements, computed on all threads, in order.
 pub fn map<A: Sync, T: Send + Sync>(all: &[A], of: impl Fn(&A) -> T + Sync) -> Vec<T> {
     map_indices(all.len(), &|index| of(&all[index]))
 }
 
-/// The values that a function has of some elements, in order, without those that have none.
+/// The values that a function has of some elements, computed on all threads, in order, without elements that it has none of.
 pub fn filter_map<A: Sync, T: Send + Sync>(
     all: &[A],
     of: impl Fn(&A) -> Option<T> + Sync,
@@ -47,7 +47,8 @@ pub fn filter_map<A: Sync, T: Send + Sync>(
     found
 }
 
-/// The values of a function of the numbers below `count`, in order; after a failure no larger ones are begun.
+/// The values of a function of the numbers below `count`, computed on all threads, in order; after a failure no larger number is
+/// begun.
 ///
 /// # Errors
 /// The failure at the least number that has one.
@@ -73,7 +74,7 @@ pub fn try_map_indices<T: Send + Sync, E: Send + Sync>(
     Ok(found)
 }
 
-/// The values of a function of some elements, in order; after a failure no later ones are begun.
+/// The values of a function of some elements, computed on all threads, in order; after a failure no later element is begun.
 ///
 /// # Errors
 /// The failure at the first element that has one.
@@ -84,7 +85,8 @@ pub fn try_map<A: Sync, T: Send + Sync, E: Send + Sync>(
     try_map_indices(all.len(), &|index| of(&all[index]))
 }
 
-/// The values of a function of pieces of `size` elements, the last one of fewer, in order; after a failure no later ones are begun.
+/// The values of a function of chunks of `size` elements, the last one of fewer, computed on all threads, in order; after a
+/// failure no later chunk is begun.
 ///
 /// # Errors
 /// The failure at the first piece that has one.
@@ -96,7 +98,8 @@ pub fn try_map_chunks<A: Sync, T: Send + Sync, E: Send + Sync>(
     try_map(&all.chunks(size).collect::<Vec<_>>(), |chunk| of(chunk))
 }
 
-/// Changes pieces of `size` elements, the last one of fewer; after a failure no later ones are begun.
+/// Calls a function that changes elements with chunks of `size` of them, the last one of fewer, on all threads; after a failure
+/// no later chunk is begun.
 ///
 /// # Errors
 /// The failure at the first piece that has one.

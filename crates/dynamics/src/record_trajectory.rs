@@ -8,10 +8,10 @@ use crate::monitor::stop_if;
 use softstop::internals::Motion;
 use softstop::{Arc, CheckedScene, MotionError, Observer, Trajectory};
 
-/// Most arcs that are kept of a trajectory: some 150 MB, and up to three times that of Taylor steps.
+/// Most arcs that a recorded trajectory may have: some 150 MB, and up to three times that of Taylor steps.
 const MAX_KEPT_ARCS: usize = 1 << 18;
 
-/// An observer that stops a motion with more arcs than are kept.
+/// An observer that stops a motion with more arcs than a recorded trajectory may have.
 #[derive(Default)]
 struct ArcLimit(usize);
 
@@ -31,11 +31,11 @@ impl Observer for ArcLimit {
     }
 }
 
-/// The trajectory of the motion of a scene from a state at time 0, as far as it is advanced.
+/// Records the trajectory of a scene's motion from a state at time 0, as far as `advance` moves it.
 ///
 /// # Errors
-/// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing;
-/// [`MotionError::Endless`] if it has more arcs than are kept.
+/// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing; [`MotionError::Endless`] if it has
+/// more arcs than are kept.
 pub fn record_trajectory(
     scene: &CheckedScene,
     state: Vector2<f64>,

@@ -3,8 +3,8 @@
 /// The 97.5 % quantile of the standard normal distribution.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
-/// Wilson's 95 % interval of a probability of which `hits` of `trials` independent trials came true
-/// (Wilson 1927): unlike the plain one it is right near 0 and 1.
+/// Wilson's 95 % confidence interval of the probability of an event that happened in `hits` of `trials` independent trials
+/// (Wilson 1927): unlike the normal approximation it is right near 0 and 1.
 pub fn wilson_interval(hits: usize, trials: usize) -> [f64; 2] {
     if trials == 0 {
         return [0.0, 1.0];

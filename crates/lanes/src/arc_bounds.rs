@@ -9,8 +9,7 @@ use super::cycle_state::Derivatives;
 /// crossings of one face by two motions, and of that time itself. Beyond it there is no bound.
 const MAX_RELATIVE_CHANGE: f64 = 0.25;
 
-/// Bounds on the second-order remainder of a deviation from the cycle at a crossing: of the state, and of the delay of the
-/// crossing in s.
+/// Bounds on the second-order remainder of a deviation from the cycle at a crossing: of state and delay.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LinearError {
     pub state: Vector2<f64>,
@@ -31,8 +30,8 @@ pub(super) struct ArcBounds {
 }
 
 impl ArcBounds {
-    /// Bounds on the deviation of position and velocity from the cycle at an instant of the arc, for all motions of a ball:
-    /// the linear part by the derivatives `at` that instant, and the remainder `rest` of the crossing before.
+    /// Bounds on the deviation of position and velocity from the cycle at an instant of the arc, for all motions of a ball: the
+    /// linear part by the derivatives `at` that instant, and the remainder `rest` of the crossing before.
     pub fn deviation(
         &self,
         at: &Derivatives,
@@ -45,8 +44,8 @@ impl ArcBounds {
 }
 
 impl CycleArc {
-    /// Bounds on the motions of a ball along this arc if they meet no other face than the cycle; none if the remainder
-    /// exceeds [`MAX_RELATIVE_CHANGE`] of first order.
+    /// Bounds on the motions of a ball along this arc if they meet no other face than the cycle; none if the remainder exceeds
+    /// [`MAX_RELATIVE_CHANGE`] of first order.
     pub fn bounds(
         &self,
         ball: &Matrix2<f64>,
@@ -96,8 +95,7 @@ impl CycleArc {
         }
     }
 
-    /// Bounds on velocity, acceleration, jerk and snap of the cycle within `time` of the end of the arc; none if that time is
-    /// too long for them.
+    /// Bounds on velocity, acceleration, jerk and snap of the cycle within `time` of the arc's end; none if that is too long.
     fn cycle_derivative_bounds(&self, time: f64, frequency: f64) -> Option<Vector4<f64>> {
         let [_, v, a, j] = self.end.map(f64::abs);
         let force = self.force * frequency * frequency;
@@ -107,15 +105,14 @@ impl CycleArc {
         Some([v + time * acceleration, acceleration, jerk, snap].into())
     }
 
-    /// 1 - (damping t + stiffness t^2): a bound on a derivative at one instant, divided by this, holds over a time t about
-    /// it. None if t is too long.
+    /// 1 - (damping t + stiffness t^2), by which a bound on a derivative is divided to hold over a time t; none if t is too long.
     fn unchanged_share(&self, time: f64) -> Option<f64> {
         let changes = self.damping * time + self.stiffness * time * time;
         (changes <= MAX_RELATIVE_CHANGE).then_some(1.0 - changes)
     }
 
-    /// Bounds on velocity and acceleration of a deviation from the cycle within `time` of the instant at which it is
-    /// `deviation`; none if that time is too long.
+    /// Bounds on velocity and acceleration of a deviation from the cycle within `time` of the instant at which it is `deviation`;
+    /// none if that time is too long.
     fn deviation_rates(
         &self,
         deviation: &Vector2<f64>,
@@ -129,9 +126,8 @@ impl CycleArc {
         Some(Vector2::new(velocity, acceleration))
     }
 
-    /// Bounds on a deviation from the cycle and its first three derivatives over a `time` after the instant at which it is
-    /// `deviation`; `growth`: the factor by which a free motion may grow meanwhile; `force`, `force_rate`: of
-    /// [`ArcBounds::delayed`].
+    /// Bounds on a deviation from the cycle and its first three derivatives over a `time` after it was `deviation`; `growth`:
+    /// factor by which a free motion may grow meanwhile; `force` and its rate: [`ArcBounds::delayed`].
     pub fn deviation_bounds(
         &self,
         deviation: &Vector2<f64>,

@@ -12,9 +12,9 @@ const MIN_BOUNCE_DURATION: f64 = 1e-2;
 /// bounces of at least [`MIN_BOUNCE_DURATION`] do not come to rest before the drive lifts the mass.
 const MAX_DAMPING_EXPONENT: f64 = 6.0;
 
-/// The phases and the drive of a machine, to find faces at which bounces come in trains (chatter): the drive can press the
-/// mass onto them while they throw it back with hardly any loss, by a jump of the force that is larger than the press, or as
-/// a wall that is nearly elastic. What ends a train only the safe engine can decide.
+/// The phases and the drive of a machine, to find faces at which bounces come in trains (chatter): the drive can press the mass
+/// onto them while they throw it back with hardly any loss, by a jump of the force that is larger than the press, or as a wall
+/// that is nearly elastic. What ends a train only the safe engine can decide.
 pub(super) struct BounceTrains<'a> {
     pub phases: &'a Phases,
     pub drive: Excitation,
@@ -37,15 +37,13 @@ impl BounceTrains<'_> {
         surface.side * (law.force - law.stiffness * surface.position)
     }
 
-    /// Bound on the rounding of the force at a position under the law of a phase, in N, when it is compared with that of
-    /// another phase.
+    /// Bound in N on the rounding of the force at a position under the law of a phase.
     fn force_rounding(&self, phase: PhaseId, position: f64) -> f64 {
         let law = &self.phases[phase].law;
         8.0 * f64::EPSILON * (law.force.abs() + (law.stiffness * position).abs())
     }
 
-    /// True if bounces come in trains at a surface: it throws the mass back with hardly any loss while the drive can press
-    /// the mass onto it.
+    /// True if bounces come in trains at a surface: it throws the mass back nearly elastically while the drive can press it on.
     fn bounces_at(&self, surface: &Surface) -> bool {
         let before = self.force_towards_stop(surface.before, surface);
         let mut beyond = [Some(surface.beyond), surface.beyond_unfed]
@@ -62,8 +60,8 @@ impl BounceTrains<'_> {
         elastic && before + self.drive.amplitude > 0.0
     }
 
-    /// True if the lanes meet no train of bounces that comes to rest: the drive lifts the mass from each face with trains
-    /// before damping has made the bounces too short.
+    /// True if the lanes meet no train of bounces that comes to rest: the drive lifts the mass from each face with trains before
+    /// damping has made the bounces too short.
     pub fn ends_before_rest(&self) -> bool {
         let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
         let damping = damping.fold(0.0, f64::max) / self.phases.mass;
@@ -75,8 +73,7 @@ impl BounceTrains<'_> {
         faces.all(|surface| lifts(surface) || !self.bounces_at(surface))
     }
 
-    /// Speed in m/s after which bounces at the faces of a phase last at least [`MIN_BOUNCE_DURATION`]; slower ones are left
-    /// to the safe engine.
+    /// Speed in m/s from which on bounces at the faces of a phase last at least [`MIN_BOUNCE_DURATION`].
     fn slowest_bounce(&self, phase: &Phase) -> f64 {
         let faces = phase.exits.iter().filter_map(|exit| match exit {
             Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),

@@ -10,8 +10,8 @@ const MAX_LIMIT_ERROR: f64 = 4e-12;
 /// Most balls about the limit that are tried for the proof.
 const MAX_BALLS: usize = 8;
 
-/// Proof that all returns in a ball about the limit of a lane's returns to an impact contract to it, with the linear map by
-/// which later returns are extrapolated.
+/// Proof that all returns in a ball about the limit of a lane's returns to an impact contract to it, with the linear map by which
+/// later returns are extrapolated.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContractionCertificate {
     pub limit: Vector2<f64>,
@@ -32,8 +32,8 @@ impl ContractionCertificate {
         moved * self.norm.largest_length() <= MAX_LIMIT_ERROR
     }
 
-    /// By which factor a deviation `off` from the limit is too large for its ball, or the return `times` returns later is
-    /// known too inexactly by the linear map: at most 1 where it may be extrapolated.
+    /// By which factor a deviation `off` from the limit is too large for its ball, or the return `times` returns later is known
+    /// too inexactly by the linear map: at most 1 where it may be extrapolated.
     pub fn excess(&self, off: &Vector2<f64>, times: f64) -> f64 {
         let (rate, curvature, aside) = (self.norm.rate_bound(), self.curvature, self.aside);
         let length = self.norm.norm_of(off) + aside;
@@ -50,16 +50,15 @@ impl ContractionCertificate {
         (excess.ln() / -self.norm.rate_bound().ln()).ceil()
     }
 
-    /// The return (velocity, drive angle) that comes `times` returns after one that deviates from the limit by `off`, by the
-    /// linear map.
+    /// The return (velocity, drive angle) `times` returns after one that deviates from the limit by `off`, by the linear map.
     pub fn return_after(&self, off: &Vector2<f64>, times: f64) -> Vector2<f64> {
         self.limit + self.map.pow(times as u32) * off
     }
 }
 
-/// Radius of the largest ball of those tried about the limit, at most `most`, whose motions all make the crossings of the
-/// cycle and contract to the limit, and the curvature of the return map in it; none if no ball is proven, or rounding moves
-/// the limit too far.
+/// Radius of the largest ball of those tried about the limit, at most `most`, whose motions all make the crossings of the cycle
+/// and contract to the limit, and the curvature of the return map in it; none if no ball is proven, or rounding moves the limit
+/// too far.
 pub(super) fn find_ball(
     cycle: &Cycle,
     norm: &ContractionNorm,

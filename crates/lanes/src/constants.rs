@@ -14,13 +14,12 @@ use softstop::internals::{
 const MAX_WINDOWS_PER_PERIOD: f64 = 65_536.0;
 /// Exponents of the power laws that lanes follow.
 const POWER_LAW_EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
-/// Largest rate of damping and suspension in a power-law contact, in units of the drive's w, with which lanes follow it:
-/// under heavier damping the mass creeps, which the safe engine follows in long steps.
+/// Largest rate of damping and suspension in a power-law contact, in units of the drive's w, with which lanes follow it: under
+/// heavier damping the mass creeps, which the safe engine follows in long steps.
 const MAX_POWER_LAW_RATE: f64 = 100.0;
 
 impl PhaseConstants {
-    /// Sets all constants, which are zero before, to those of a phase of the engine; none if only the safe engine can follow
-    /// that phase.
+    /// Sets all constants, zero before, to those of a phase of the engine; none if only the safe engine can follow it.
     pub fn set_to_phase(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         if let Some(hertz) = &phase.hertz {
@@ -119,8 +118,8 @@ impl PhaseConstants {
         self.press > 0.0
     }
 
-    /// True if the further guard ends the phase before the position `end` does (`side` = 1 for the lower end, -1 for the
-    /// upper one): a contact that must not pull is released before it is open.
+    /// True if the further guard ends the phase before the position `end` does (`side` = 1 for the lower end, -1 for the upper
+    /// one): a contact that must not pull is released before it is open.
     fn is_released_before(&self, end: f64, side: f64) -> bool {
         let off = self.by_position * end - self.level;
         side * self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
@@ -144,8 +143,7 @@ impl PhaseConstants {
         real.map(|(_, beyond)| beyond as usize)
     }
 
-    /// These constants with the guards at positions x themselves, as a phase with several ends needs them, not at distances
-    /// from its one end.
+    /// These constants for a phase with several ends: of position x itself, not of the distance from its one end.
     pub fn in_absolute_position(&self) -> Self {
         let mut constants = *self;
         constants.apply_side(self.side);
@@ -170,8 +168,7 @@ impl PhaseConstants {
         }
     }
 
-    /// Sets the position, the phase beyond and the impact at a surface that ends the phase; `forward`: it is passed on the
-    /// way to the stop, not back.
+    /// Ends the phase at a surface: sets position, phase beyond and impact; `forward`: on the way to the stop, not back.
     fn end_at(&mut self, phases: &Phases, surface: SurfaceId, forward: bool) {
         let at = &phases[surface];
         let impact = f64::from(u8::from(forward && at.is_clearance));
@@ -188,8 +185,8 @@ impl PhaseConstants {
         }
     }
 
-    /// Sets the constants of the equation of motion of a linear phase; none if it is too stiff for windows, or too soft to
-    /// have a static deflection.
+    /// Sets the constants of a linear phase's equation of motion; none if it is too stiff for windows, or too soft for a static
+    /// deflection.
     fn set_linear_law(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         let flow = &phase.flow;
         let (cosine, sine) = flow.steady_state()?;
@@ -247,9 +244,8 @@ impl PhaseConstants {
         }
     }
 
-    /// Sets the constants of the bounds on |x''''| and |v''''| over a window. |x''''| <= |y''''| C + |y'''''| S for the free
-    /// part y, with the bounds C and S on the fundamental solutions over the time `reach`, plus w^4 times the steady
-    /// amplitude.
+    /// Sets the bounds on |x''''| and |v''''| over a window: |x''''| <= |y''''| C + |y'''''| S for the free part y, with the
+    /// bounds C and S on the fundamental solutions over the time `reach`, plus w^4 times the steady amplitude.
     fn set_bounds(&mut self, modes: &Modes, w: f64, reach: f64) {
         let scale = self.window.powi(4) / 384.0;
         let (c, s) = modes.solution_bounds(reach);
@@ -268,9 +264,9 @@ impl PhaseConstants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets the distance from a guard, and the velocity there, below which rounding may decide, so that the lane is handed to
-    /// the safe engine. That tells rest from a faint bounce by the velocity after the impact before, so velocities after an
-    /// impact count, too.
+    /// Sets the distance from a guard, and the velocity there, below which rounding may decide, so that the lane is handed to the
+    /// safe engine. That tells rest from a faint bounce by the velocity after the impact before, so velocities after an impact
+    /// count, too.
     fn set_ambiguity(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let size = finite(self.low)

@@ -20,16 +20,15 @@ use super::lanes::{Lanes, Mask};
 use super::law::Laws;
 use super::move_lanes::LaneEnd;
 
-/// How many eighths of the busy lanes have to be in power-law contact before their contacts are computed, all at once; until
-/// then they wait.
+/// How many eighths of the busy lanes have to be in power-law contact before these are moved; until then they wait.
 const MIN_EIGHTHS_IN_CONTACT: usize = 7;
 /// Most rounds over all phases for which lanes in contact wait for others.
 const MAX_ROUNDS_WAITED: usize = 6;
 /// Most Taylor steps with which a contact is followed in one round over all phases.
 const MAX_STEPS: usize = 64;
 
-/// Where the lanes have come to in one power-law contact, and which of them go on, have left contact, have arrived at the end
-/// of their time, or are left to the safe engine.
+/// Where the lanes have come to in one power-law contact, and which of them go on, have left contact, have arrived at the end of
+/// their time, or are left to the safe engine.
 struct ContactPath<S: Simd, const N: usize> {
     place: ContactState<S, N>,
     /// Length of the last step, in the regularised time sigma.
@@ -41,8 +40,8 @@ struct ContactPath<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Follows the lanes of `active` that are in power-law contact through it, once most busy lanes are in contact; returns
-    /// the lanes of `active` that are not in contact.
+    /// Follows the lanes of `active` that are in power-law contact through it, once most busy lanes are in contact; returns the
+    /// lanes of `active` that are not in contact.
     #[inline(always)]
     pub fn advance_contacts(&mut self, phase: usize, active: Mask<S, N>) -> Mask<S, N> {
         let press = self.laws[phase].press;
@@ -65,8 +64,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         active.and_not(pressed)
     }
 
-    /// Moves the lanes `active`, which are in contact, to its end or for the time `due`. Returns the lanes that came to the
-    /// end of their job, and those that the safe engine has to take.
+    /// Moves the lanes `active`, which are in contact, to its end or for the time `due`. Returns the lanes that came to the end
+    /// of their job, and those that the safe engine has to take.
     #[inline(always)]
     fn step_through_contact(
         &mut self,

@@ -6,8 +6,7 @@ use pulp::Simd;
 use super::contact_series::{ContactSeries, DEGREE, RECIPROCALS, Terms};
 use super::lanes::{Lanes, Mask, Pair};
 
-/// How often a Taylor step in contact is halved at most until it is decided whether the mass is released in it; then the safe
-/// engine decides.
+/// Most halvings of a Taylor step until the release in it is decided; then the safe engine decides.
 const MAX_HALVINGS: usize = 6;
 /// Most steps of Newton's method for a zero of a contact's series; then the safe engine takes the lane.
 const MAX_NEWTON_STEPS: usize = 10;
@@ -32,8 +31,7 @@ struct TermBounds<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> ContactSeries<S, N> {
-    /// Finds whether the lanes `of` leave contact within the step `sigma`, and where; steps of lanes that cannot be decided
-    /// are halved.
+    /// Finds whether and where the lanes `of` leave contact within the step `sigma`; undecided steps are halved.
     #[inline(always)]
     pub fn find_release(&self, sigma: Lanes<S, N>, of: Mask<S, N>) -> ReleaseSearch<S, N> {
         let zero = sigma.like(0.0);
@@ -92,8 +90,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         margin.below(first) | margin.below(value + first.min(zero))
     }
 
-    /// The sigma at which `time` has passed since the beginning of the step, for steps that a period ends before a release;
-    /// and the lanes in which Newton's method found it. The pair `sigma`: a step that is longer, and its time.
+    /// The sigma at which `time` has passed since the beginning of the step, for steps that a period ends before a release; and
+    /// the lanes in which Newton's method found it. The pair `sigma`: a step that is longer, and its time.
     #[inline(always)]
     pub fn sigma_at_time(
         &self,
@@ -113,8 +111,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         solve_series(&series, time, sigma, share, of)
     }
 
-    /// True where the terms of the series prove that the velocity towards the stop stays above `level` over a step `sigma`,
-    /// so that the law's force does not change sign.
+    /// True where the terms of the series prove that the velocity towards the stop stays above `level` over a step `sigma`, so
+    /// that the law's force does not change sign.
     #[inline(always)]
     pub fn stays_faster(&self, level: Lanes<S, N>, sigma: Lanes<S, N>) -> Mask<S, N> {
         let mut change = sigma.like(0.0);

@@ -118,8 +118,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         }
     }
 
-    /// Computes all series about the state `from` by their recurrence, two orders at a time, so that one fetch from memory
-    /// serves both.
+    /// Computes all series about the state `from` by their recurrence, two orders at a time: one fetch from memory serves both.
     #[inline(always)]
     pub fn expand(&mut self, law: &Laws<S, N>, frequency: Lanes<S, N>, from: &ContactState<S, N>) {
         let zero = frequency.like(0.0);
@@ -163,8 +162,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         }
     }
 
-    /// Sets the coefficients of order `k` of the two series whose product is the force of suspension and power law times s:
-    /// `springs` and `other`.
+    /// Sets the coefficients `k` of the two series whose product is s times the force of suspension and power law.
     #[inline(always)]
     fn set_spring_factors(
         &mut self,
@@ -184,8 +182,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         (self.steep[k], self.other[k]) = (steep, other);
     }
 
-    /// Sums of s_i s_j over i < j, i >= 1 with i + j = k + 1 and with i + j = k + 2, k even: half of the coefficients of D =
-    /// s^2 of these orders, without the terms with s_0 and the middle square.
+    /// Sums of s_i s_j over i < j, i >= 1 with i + j = k + 1 and with i + j = k + 2, k even: half of the coefficients of D = s^2
+    /// of these orders, without the terms with s_0 and the middle square.
     #[inline(always)]
     fn half_square_sums(&self, k: usize) -> [Lanes<S, N>; 2] {
         let mut last = self.root[k + 1];
@@ -199,8 +197,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         sums
     }
 
-    /// Coefficient k of the product of two series from the sum `inner` of the products of their coefficients 1 to k - 1: adds
-    /// a_0 b_k + a_k b_0.
+    /// Coefficient k of the product of two series, from the sum `inner` of its inner terms: adds a_0 b_k + a_k b_0.
     #[inline(always)]
     fn add_ends(
         &self,
@@ -212,8 +209,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         a[0].mul_add(b[k], a[k].mul_add(b[0], inner))
     }
 
-    /// Sets coefficient k + 2 of s and coefficients k + 1 of cos and sin from the products of order k: s cos, s sin and s
-    /// times the force of the springs; `grips`: some law dissipates.
+    /// Sets coefficient k + 2 of s and coefficients k + 1 of cos and sin from the products of order k: s cos, s sin and s times
+    /// the force of the springs; `grips`: some law dissipates.
     #[inline(always)]
     fn set_next_coefficients(
         &mut self,

@@ -6,11 +6,10 @@ use super::contact_series::{ContactSeries, ContactState, DEGREE};
 use super::lanes::{Lanes, Mask};
 use super::law::Laws;
 
-/// How many of the last terms of a series are compared with its first ones: in symmetric cases all but every fifth vanish, or
-/// every seventh.
+/// How many last terms of a series are compared with its first: in symmetric cases all but every fifth or seventh vanish.
 const LAST_TERMS_COMPARED: usize = 7;
-/// Least ratio of the size that the last terms may have to the one that they have at a guessed step length, from which the
-/// step length is computed at once; at longer guesses the next guess is shorter.
+/// Least ratio of the size that the last terms may have to the one that they have at a guessed step length, from which the step
+/// length is computed at once; at longer guesses the next guess is shorter.
 const MIN_RATIO_TO_LAST_TERM: f64 = 1.0 / (1u64 << 24) as f64;
 
 /// Most guesses of a step length, each within a factor of two of the one before.
@@ -27,8 +26,8 @@ impl<S: Simd, const N: usize> ContactState<S, N> {
 }
 
 impl<S: Simd, const N: usize> ContactSeries<S, N> {
-    /// Length, in sigma, of the step over which the series hold to rounding in the lanes `of`, found from a `guess` on; and
-    /// the lanes in which it was found.
+    /// Length, in sigma, of the step over which the series hold to rounding in the lanes `of`, from a `guess` on; and where it
+    /// was found.
     #[inline(always)]
     pub fn step_length(&self, guess: Lanes<S, N>, of: Mask<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let mut reach = guess;
@@ -44,8 +43,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         (reach, of.and_not(open))
     }
 
-    /// Step length extrapolated from the sizes of the terms at the length `near`, and the lanes in which `near` is close
-    /// enough for that.
+    /// Step length by the sizes of the terms at the length `near`, and the lanes in which `near` is close enough for that.
     #[inline(always)]
     fn step_length_judged_at(&self, near: Lanes<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let one = near.like(1.0);

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-/// How often the number of terms of the sum that gives the norm is doubled: up to 256. Where more would count, the map
-/// contracts a little less in the norm.
+/// How often the number of terms of the sum that gives the norm is doubled: up to 256. Where more would count, the map contracts
+/// a little less in the norm.
 const SUM_DOUBLINGS: usize = 8;
 
 /// The norm |P y|, with the Euclidean length, in which a stable linear map shortens every vector.
@@ -17,8 +17,8 @@ pub(super) struct ContractionNorm {
 }
 
 impl ContractionNorm {
-    /// The norm for a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of (M'/g)^k
-    /// (M/g)^k over all k (Stein's equation).
+    /// The norm for a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of (M'/g)^k (M/g)^k
+    /// over all k (Stein's equation).
     pub fn of_map(map: &Matrix2<f64>) -> Option<Self> {
         let radius = spectral_radius(map.trace(), map.determinant());
         let bound = radius + 0.02 * (1.0 - radius);

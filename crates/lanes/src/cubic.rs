@@ -110,9 +110,9 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         curve + self.slope
     }
 
-    /// Where the cubic rises through zero in the lanes `of`, approximately and in units of the window: the zero of the
-    /// parabola through the left end and the right value, then a step of Newton's method. In the lanes `leaves`, where the
-    /// cubic is zero at the left end, its other zero.
+    /// Where the cubic rises through zero in the lanes `of`, approximately and in units of the window: the zero of the parabola
+    /// through the left end and the right value, then a step of Newton's method. In the lanes `leaves`, where the cubic is zero
+    /// at the left end, its other zero.
     #[inline(always)]
     pub fn guess_rise(&self, leaves: Mask<S, N>, of: Mask<S, N>) -> Lanes<S, N> {
         let Self {

@@ -15,8 +15,8 @@ use softstop::internals::Modes;
 
 /// Most windows into which a cycle is divided for the proof.
 const MAX_WINDOWS: usize = 4096;
-/// Largest difference between the state at the end of an arc by its linear law and the recorded one, relative to the size of
-/// the motion, with which the arc is used.
+/// Largest difference between the state at the end of an arc by its linear law and the recorded one, relative to the size of the
+/// motion, with which the arc is used.
 const MAX_ARC_MISMATCH: f64 = 1e-9;
 
 /// An arc of a trial cycle and the crossing that ends it, linearised. A motion beside the cycle is compared with it at equal
@@ -53,8 +53,8 @@ pub(super) struct CycleArc {
     pub delay: RowVector2<f64>,
 }
 
-/// A trial cycle from impact to impact, with its derivatives by the return that it begins with: velocity in units of the
-/// first return's, drive angle.
+/// A trial cycle from impact to impact, with its derivatives by the return that it begins with: velocity in units of the first
+/// return's, drive angle.
 #[derive(Debug, Default)]
 pub(super) struct Cycle {
     pub arcs: Vec<CycleArc>,
@@ -66,8 +66,8 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// Linearises the cycle from the impact `from` through all crossings `passages`, velocities in units of `velocity`: sets
-    /// the arcs and the derivative of the next return. None if a law is not linear or a crossing not transversal.
+    /// Linearises the cycle from the impact `from` through all crossings `passages`, velocities in units of `velocity`: sets the
+    /// arcs and the derivative of the next return. None if a law is not linear or a crossing not transversal.
     pub fn linearise(
         &mut self,
         laws: &[PhaseConstants],
@@ -104,8 +104,8 @@ impl Cycle {
         (is_finite && !self.arcs.is_empty()).then_some(())
     }
 
-    /// Adds the arc between two crossings, each with cos + i sin of the drive angle then, and the derivatives of state and
-    /// delay at its start; none if its law is not linear or the crossing that ends it not transversal.
+    /// Adds the arc between two crossings, each with cos + i sin of the drive angle then, and the derivatives of state and delay
+    /// at its start; none if its law is not linear or the crossing that ends it not transversal.
     fn add_arc(
         &mut self,
         law: &PhaseConstants,
@@ -175,8 +175,7 @@ impl Cycle {
     }
 }
 
-/// Bound on the rounding of position and velocity of a cycle at one instant: one unit in the last place of each of their
-/// terms and of the time.
+/// Bound on the rounding of position and velocity of a cycle: one unit in the last place of each of their terms and of the time.
 fn state_rounding(law: &PhaseConstants, place: &CycleState, period: f64) -> Vector2<f64> {
     let [x, v, a, _] = place.jet.map(f64::abs);
     let free = place.free.abs();
@@ -195,8 +194,8 @@ impl CycleArc {
         }
     }
 
-    /// Adds the windows of the arc to `windows`, halved where the cycle is not proven clear of other faces; none if they
-    /// become too short or too many.
+    /// Adds the windows of the arc, halved where the cycle is not proven clear of other faces; none if they get too short or too
+    /// many.
     fn divide_arc(
         &self,
         law: &PhaseConstants,

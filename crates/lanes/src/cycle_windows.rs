@@ -8,8 +8,8 @@ use super::cycle_state::{CycleState, Derivatives};
 use super::face::PhaseFace;
 use super::law::{PhaseConstants, WINDOW_ANGLE};
 
-/// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the
-/// error M h^4 / 384 of its value; M: largest fourth derivative (Birkhoff and Priver 1967).
+/// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the error M
+/// h^4 / 384 of its value; M: largest fourth derivative (Birkhoff and Priver 1967).
 const RATE_ERROR: f64 = 384.0 * 0.008_018_753_738_744_818;
 
 /// The windows into which a trial cycle is divided, one after another, with the margins of the faces in each.
@@ -81,8 +81,10 @@ impl CycleWindows {
                 0.0 => law.ambiguity,
                 _ => law.ambiguity * law.guard_scale,
             };
+            // Levels of the same function of position and velocity.
+            let gradient = (face.position, face.velocity);
             let [is_entry, is_exit] =
-                [entry, exit].map(|it| it.is_some_and(|it| it.has_gradient_of(&face)));
+                [entry, exit].map(|it| it.is_some_and(|it| (it.position, it.velocity) == gradient));
             WindowMargin::of_face(
                 &face,
                 (from, to),
@@ -114,8 +116,7 @@ impl CycleWindows {
         is_clear
     }
 
-    /// True if no motion meets another face in a window whose position, velocity, acceleration and jerk deviate from the
-    /// cycle by no more than `most`.
+    /// True if no motion meets another face in a window whose position and derivatives deviate from the cycle by at most `most`.
     pub fn is_clear(&self, window: &CycleWindow, most: &Vector4<f64>) -> bool {
         let mut margins = self.margins[window.margins.clone()].iter();
         margins.all(|margin| margin.tolerates_deviation(most))

@@ -14,9 +14,9 @@ use super::scan::ScanResult;
 const MIN_DECIDED_SPAN: f64 = 1e-12;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Decides for each lane that the scan has stopped whether its guard rises through zero in the window ahead, and moves
-    /// all `active` lanes to the crossing or on, none longer than `due`. Returns the lanes that came to the end of their job,
-    /// and those that the safe engine has to take.
+    /// Decides for each lane that the scan has stopped whether its guard rises through zero in the window ahead, and moves all
+    /// `active` lanes to the crossing or on, none longer than `due`. Returns the lanes that came to the end of their job, and
+    /// those that the safe engine has to take.
     #[inline(always)]
     pub fn decide_window<const HAS_OTHER_ENDS: bool>(
         &mut self,
@@ -44,8 +44,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         (self.end_periods(arrived), doubtful)
     }
 
-    /// Moves the active lanes to the end of their window or to their crossing; returns those that cross, and those that the
-    /// safe engine has to take.
+    /// Moves the active lanes to the end of their window or to their crossing; returns those that cross, and the doubtful ones.
     #[inline(always)]
     fn move_to_decision<const HAS_OTHER_ENDS: bool>(
         &mut self,

@@ -14,8 +14,7 @@ use super::parts::Parts;
 use super::scan::LEAVING_MARGIN;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 
-/// Least time between the crossing of a direct step and the end of the period or job, in windows: more than rounding could
-/// bridge.
+/// Least time from the crossing of a direct step to the end of the period, in windows: more than rounding could bridge.
 const MIN_TIME_TO_END: f64 = 1e-4;
 
 /// Where a direct step would take each lane: the surface and the time at which its phase ends.
@@ -32,8 +31,8 @@ struct DirectPath<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves the lanes to the end of their phase in one step where their velocity provably keeps its sign up to there and
-    /// they meet no further guard before; returns the lanes that are not moved.
+    /// Moves the lanes to the end of their phase in one step where their velocity provably keeps its sign up to there and they
+    /// meet no further guard before; returns the lanes that are not moved.
     #[inline(always)]
     pub fn direct_step(
         &mut self,
@@ -141,8 +140,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 }
 
 impl<S: Simd, const N: usize> DirectPath<S, N> {
-    /// True where the velocity keeps its sign for `time`, by its values and rates at both `ends`, and the further guard is
-    /// not met.
+    /// True where the velocity, given with its rate at both `ends`, keeps its sign for `time` and the further guard is not met.
     #[inline(always)]
     fn keeps_direction(
         &self,

@@ -6,8 +6,7 @@ use super::engine::Engine;
 use super::machine::{Instructions, Job, LoweredMachine, Outcome, Task};
 use super::observer::{BatchObserver, ObserverHandle};
 
-/// Number of vector registers over which the lanes of one batch are spread: while an operation on one waits, the other goes
-/// on.
+/// Number of vector registers over which the lanes of one batch are spread: while one waits, the other goes on.
 pub(super) const REGISTERS_PER_BATCH: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it that the processor has.
@@ -31,8 +30,8 @@ fn run_task(task: Task, instructions: Instructions) -> Vec<Outcome> {
     dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions)
 }
 
-/// Runs a task with an instruction set, or the widest below it that the processor has. Each set is the whole engine once
-/// more, so none is compiled twice.
+/// Runs a task with an instruction set, or the widest below it that the processor has. Each set is the whole engine once more, so
+/// none is compiled twice.
 pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
     vectorize(task, instructions).unwrap_or_else(|task| Simd::vectorize(pulp::Scalar, task))
 }

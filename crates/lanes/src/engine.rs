@@ -153,8 +153,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.outcomes
     }
 
-    /// Gives lanes whose job has `ended` the next job, and hands `doubtful` ones, which rounding could decide, to the safe
-    /// engine.
+    /// Gives lanes whose job has `ended` the next job, and hands `doubtful` ones to the safe engine.
     pub fn serve_lanes(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             let (ended, doubtful) = (ended.get(lane), doubtful.get(lane));
@@ -186,8 +185,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         periods.mul_add(drive.period, -offset)
     }
 
-    /// Moves the lanes that are in a phase to its end, or as far as they come in a few windows. `HAS_OTHER_ENDS`: the phase
-    /// may end at something else than one position.
+    /// Moves the lanes that are in a phase to its end, or as far as they come in a few windows. `HAS_OTHER_ENDS`: the phase may
+    /// end at something else than one position.
     #[inline(always)]
     fn step_phase<const HAS_OTHER_ENDS: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let due = self.time_to_stop();
@@ -229,7 +228,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     /// Puts the next job that can be followed into a lane, or leaves the lane idle.
     fn take_next(&mut self, lane: usize) {
         self.lanes[lane] = None;
-        self.state.end_job(lane);
+        self.state.left.set(lane, 0.0);
         while self.next < self.task.jobs.len() && self.task.watch.count_work(0).is_continue() {
             let job = self.next;
             self.next += 1;
@@ -339,8 +338,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
     }
 
-    /// The state of a lane with the position moved back inside its phase where rounding has put it onto an end of it: there
-    /// the safe engine would take the crossing for done.
+    /// The state of a lane with the position moved back inside its phase where rounding has put it onto an end of it: there the
+    /// safe engine would take the crossing for done.
     fn state_within_phase(&self, lane: usize) -> Start {
         let Start { position, velocity } = self.state.position_and_velocity(lane);
         let law = &self.laws[self.state.phase.get(lane) as usize];

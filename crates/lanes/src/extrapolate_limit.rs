@@ -6,13 +6,13 @@ use super::contraction_norm::spectral_radius;
 
 /// Number of returns of the motion from which their limit is extrapolated.
 pub(super) const RETURNS_PER_GUESS: usize = 4;
-/// Least difference between 1 and the spectral radius of the return map with which a limit is extrapolated: deviations decay
-/// by at least so much in one return.
+/// Least difference between 1 and the spectral radius of the return map with which a limit is extrapolated: deviations decay by
+/// at least so much in one return.
 pub(super) const MIN_DECAY: f64 = 1e-3;
 
-/// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial
-/// extrapolation (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d. None if
-/// they do not converge fast enough.
+/// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial extrapolation
+/// (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d. None if they do not converge
+/// fast enough.
 pub(super) fn extrapolate_limit(
     points: &[Vector2<f64>; RETURNS_PER_GUESS],
 ) -> Option<(Vector2<f64>, f64)> {

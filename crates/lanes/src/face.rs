@@ -11,13 +11,6 @@ pub(super) struct PhaseFace {
     pub level: f64,
 }
 
-impl PhaseFace {
-    /// True if two faces are levels of the same linear function of position and velocity.
-    pub fn has_gradient_of(&self, other: &Self) -> bool {
-        (self.position, self.velocity) == (other.position, other.velocity)
-    }
-}
-
 impl PhaseConstants {
     /// The face of the phase that a crossing is made at, told by its position.
     pub fn crossed_face(&self, passage: &FaceCrossing) -> PhaseFace {

@@ -8,8 +8,7 @@ use super::law::Laws;
 use super::parts::Parts;
 use super::window_ahead::WindowAhead;
 
-/// The guard function that each lane may meet in its window, g = position x + velocity v - level, with the error bound of its
-/// cubic.
+/// The guard function that each lane may meet in its window, g = position x + velocity v - level, with error bounds.
 pub(super) struct WindowGuard<S: Simd, const N: usize> {
     pub position: Lanes<S, N>,
     pub velocity: Lanes<S, N>,
@@ -26,8 +25,7 @@ pub(super) struct WindowGuard<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> WindowGuard<S, N> {
-    /// The guard that each lane may meet in the window ahead; `error_bound`: of the cubic through the positions over a whole
-    /// window.
+    /// The guard that each lane may meet in the window ahead; `error_bound`: of the position's cubic over a whole window.
     #[inline(always)]
     pub fn of_window<const HAS_OTHER_ENDS: bool>(
         law: &Laws<S, N>,

@@ -8,8 +8,7 @@ use pulp::Simd;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Laws;
 
-/// A guard function g over [0, span], known by its values and rates at both ends, with the error bound |g''''| span^4 / 384
-/// of their cubic.
+/// A guard function g over [0, span]: values and rates at both ends, and the error bound |g''''| span^4 / 384 of their cubic.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GuardInterval<S: Simd, const N: usize> {
     pub left: Pair<S, N>,
@@ -30,8 +29,8 @@ pub(super) struct IntervalVerdict<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> GuardInterval<S, N> {
-    /// The interval of the phase's further guard (friction, release of contact) between two ends with their positions,
-    /// velocities and accelerations; `error_bounds`: of the cubics of position and velocity.
+    /// The interval of the phase's further guard (friction, release of contact) between two ends with their positions, velocities
+    /// and accelerations; `error_bounds`: of the cubics of position and velocity.
     #[inline(always)]
     pub fn of_further_guard(
         law: &Laws<S, N>,
@@ -64,8 +63,8 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         (high + self.error_bound).below(high.like(0.0))
     }
 
-    /// True where the phase's further guard, of which this is the interval, provably does not rise through zero, nor comes
-    /// within rounding of zero at the end.
+    /// True where the phase's further guard, of which this is the interval, provably does not rise through zero, nor comes within
+    /// rounding of zero at the end.
     #[inline(always)]
     pub fn is_clear_of_further(&self, law: &Laws<S, N>) -> Mask<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
@@ -82,8 +81,7 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
         interval.judge(touches, leaves).clear.and_not(ends_there)
     }
 
-    /// Proves what it can of the guard function in each lane. `touches`: it begins within rounding of zero; `leaves`: and it
-    /// falls there.
+    /// Proves what it can of the guard function. `touches`: it begins within rounding of zero; `leaves`: and falls there.
     #[inline(always)]
     pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> IntervalVerdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);

@@ -13,8 +13,7 @@ use super::parts::Parts;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 use super::window_ahead::WindowAhead;
 
-/// Most instants besides the first guess at which a crossing or a maximum of the guard is searched for; then the safe engine
-/// finds it.
+/// Most guesses, besides the first, of a crossing or a maximum of the guard; then the safe engine finds it.
 const MAX_INSTANTS: usize = 6;
 
 /// Result of the search for a crossing in the window ahead, in each lane.
@@ -108,8 +107,8 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
         self.refine_search::<HAS_OTHER_ENDS>(law, ahead, left, goal)
     }
 
-    /// Refines the guesses by Newton's method: lanes whose guard has a maximum first find how high it is, lanes whose guard
-    /// rises find the crossing; the others just go to the end of the window.
+    /// Refines the guesses by Newton's method: lanes whose guard has a maximum first find how high it is, lanes whose guard rises
+    /// find the crossing; the others just go to the end of the window.
     #[inline(always)]
     fn refine_search<const HAS_OTHER_ENDS: bool>(
         &self,
@@ -165,8 +164,8 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
         }
     }
 
-    /// Decides lanes whose guard's maximum is found: below zero there is no crossing, above zero it is searched next, too
-    /// close to tell is left to the safe engine.
+    /// Decides lanes whose guard's maximum is found: below zero there is no crossing, above zero it is searched next, too close
+    /// to tell is left to the safe engine.
     #[inline(always)]
     fn decide_at_maximum(
         &self,

@@ -5,9 +5,9 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 use pulp::Simd;
 use pulp::bytemuck::Zeroable;
 
-/// Applies an instruction to each register of one or two and puts the results in the place of a value's registers. Neither a
-/// loop (thousands of them, though unrolled, take the compiler minutes) nor a closure, which has no instruction set of its
-/// own and is slow wherever it is not inlined.
+/// Applies an instruction to each register of one or two and puts the results in the place of a value's registers. Neither a loop
+/// (thousands of them, though unrolled, take the compiler minutes) nor a closure, which has no instruction set of its own and is
+/// slow wherever it is not inlined.
 macro_rules! each {
     ($value:expr => $first:ident.$intrinsic:ident($($other:ident),*)) => {{
         const { assert!(N == 1 || N == 2) };
@@ -32,8 +32,7 @@ pub(super) struct Lanes<S: Simd, const N: usize> {
 /// Two numbers per lane: a value and its rate, or position and velocity, or cosine and sine.
 pub(super) type Pair<S, const N: usize> = (Lanes<S, N>, Lanes<S, N>);
 
-/// One truth value per lane, as wide as the number: narrower ones would travel packed in one integer, and be unpacked for
-/// each use.
+/// One truth value per lane, as wide as a number: narrower ones would be packed in one integer, and unpacked for each use.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(super) struct Mask<S: Simd, const N: usize> {

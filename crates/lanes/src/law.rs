@@ -6,11 +6,9 @@ use super::lanes::{Lanes, Mask, Pair};
 
 /// Length of a scan window times the fastest rate of the motion, in rad.
 pub(super) const WINDOW_ANGLE: f64 = 1.2;
-/// Least share of a window that is decided after halvings: below it the safe engine takes the lane, or a trial cycle is not
-/// proven.
+/// Least share of a window that is decided, after halvings: then the safe engine takes the lane, or a cycle is not proven.
 pub(super) const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
-/// Number of terms of the power series of the free motion over at most half a window: the first one left out is 0.6^16 / 16!
-/// < 2e-17.
+/// Terms of the power series of the free motion over half a window at most: the first one left out is 0.6^16 / 16! < 2e-17.
 pub(super) const FREE_TERMS: usize = 15;
 
 macro_rules! law {
@@ -87,8 +85,8 @@ law! {
     fourth_v,
     fifth_x,
     fifth_v,
-    /// The free motion is never larger than |y| + longest |y'| in the free phase and in one that one position ends, the
-    /// steady one than swing.
+    /// The free motion is never larger than |y| + longest |y'| in the free phase and in one that one position ends, the steady
+    /// one than swing.
     longest,
     swing,
     /// Parts of the bound on |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
@@ -116,8 +114,8 @@ law! {
     /// 1 where passing high, or low, is an impact.
     impact,
     impact_low,
-    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how velocity and count of
-    /// impacts change there.
+    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how velocity and count of impacts
+    /// change there.
     end,
     beyond_end,
     end_bounce,
@@ -137,8 +135,7 @@ law! {
 }
 
 impl<S: Simd, const N: usize> Laws<S, N> {
-    /// Rate and second derivative of a free motion from its value and rate: velocity and acceleration from position and
-    /// velocity, and so on.
+    /// Rate and second derivative of a free motion, or of a derivative of it, from its value and rate.
     #[inline(always)]
     pub fn differentiate_free(&self, (free, rate): Pair<S, N>) -> Pair<S, N> {
         (rate, self.stiffness.mul_add(free, self.damping * rate))
@@ -161,8 +158,7 @@ impl<S: Simd, const N: usize> Laws<S, N> {
         )
     }
 
-    /// Upper and lower end of the phase, as side (x - offset); the lower one at minus infinity where one position alone ends
-    /// it.
+    /// Upper and lower end of the phase, as side (x - offset); the lower one at minus infinity if one position alone ends it.
     #[inline(always)]
     pub fn edges<const HAS_OTHER_ENDS: bool>(&self) -> Pair<S, N> {
         if HAS_OTHER_ENDS {
@@ -172,8 +168,7 @@ impl<S: Simd, const N: usize> Laws<S, N> {
         }
     }
 
-    /// Position and velocity of a free motion (y, u) after a whole number of windows, by powers of the transition matrix of
-    /// one.
+    /// Position and velocity of a free motion (y, u) after a number of windows, by powers of the transition matrix of one.
     #[inline(always)]
     pub fn free_after_whole(&self, windows: Lanes<S, N>, (mut y, mut u): Pair<S, N>) -> Pair<S, N> {
         let (zero, one, half) = (y.like(0.0), y.like(1.0), y.like(0.5));

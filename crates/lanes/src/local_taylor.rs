@@ -9,8 +9,7 @@ use super::parts::Parts;
 /// Coefficients of a Taylor polynomial in time about one instant, in every lane, the value first.
 pub(super) type LocalTaylor<S, const N: usize> = [Lanes<S, N>; TERMS];
 
-/// Number of coefficients of a [`LocalTaylor`]: up to a nearby zero, 0.02 rad away, the first one left out adds less than
-/// 3e-16.
+/// Number of coefficients of a [`LocalTaylor`]: up to a zero 0.02 rad away the first one left out adds less than 3e-16.
 pub(super) const TERMS: usize = 7;
 
 /// Factors 1/n! of Taylor coefficients, for n from 0 to [`TERMS`].
@@ -88,8 +87,7 @@ pub(super) fn negated_rate<S: Simd, const N: usize>(
     rate
 }
 
-/// Second derivative of a Taylor polynomial a time `at` from its centre, to the digits that a short step of Newton's method
-/// needs.
+/// Second derivative of a Taylor polynomial a time `at` from its centre, to the digits that Newton's method needs.
 #[inline(always)]
 pub(super) fn curvature_at<S: Simd, const N: usize>(
     local: &LocalTaylor<S, N>,

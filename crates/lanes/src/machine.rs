@@ -17,8 +17,7 @@ pub struct LoweredMachine {
 }
 
 impl LoweredMachine {
-    /// Computes the laws of a scene's phases for the lanes; [`LoweredMachine::is_for_lanes`] says whether they can follow
-    /// them.
+    /// Lowers a scene to the laws of its phases for the lanes, if they can follow them.
     pub fn new(scene: &CheckedScene) -> Self {
         let (phases, drive) = (scene.phases(), scene.excitation);
         let trains = BounceTrains { phases, drive };
@@ -38,9 +37,9 @@ impl LoweredMachine {
         &self.scene
     }
 
-    /// True if lanes can follow the machine's motions; else the safe engine does. All laws are linear but for a power law at
-    /// the end, none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back in
-    /// trains of bounces without end.
+    /// True if lanes can follow the machine's motions; else the safe engine does. All laws are linear but for a power law at the
+    /// end, none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back in trains of
+    /// bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()
     }

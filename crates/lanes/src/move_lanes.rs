@@ -18,8 +18,8 @@ pub(super) struct LaneEnd<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Puts the lanes `moved` into the state at the end of a step that takes `time`, and the lanes `hits` into the phase
-    /// beyond the crossing there; counts impacts, crossings and ends of periods. (cos, sin): the drive angle then.
+    /// Puts the lanes `moved` into the state at the end of a step that takes `time`, and the lanes `hits` into the phase beyond
+    /// the crossing there; counts impacts, crossings and ends of periods. (cos, sin): the drive angle then.
     #[inline(always)]
     pub fn move_lanes(
         &mut self,
@@ -57,8 +57,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Ends the drive period, or the job where periods are not observed, of the lanes that have `arrived` there; returns
-    /// those whose job is complete.
+    /// Ends the drive period (or the job, if periods are not observed) of lanes that have `arrived` there; returns those whose
+    /// job is complete.
     #[inline(always)]
     pub fn end_periods(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
         if !arrived.any() {

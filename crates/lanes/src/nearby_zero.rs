@@ -6,12 +6,10 @@ use super::lanes::{Lanes, Mask};
 use super::law::WINDOW_ANGLE;
 use super::local_taylor::{LocalTaylor, TERMS, curvature_at};
 
-/// Longest time from the centre of a Taylor polynomial at which its zero is used, times the fastest rate of the motion, in
-/// rad.
+/// Longest time from a Taylor polynomial's centre to a zero that is used, times the fastest rate of the motion, in rad.
 const MAX_ZERO_ANGLE: f64 = 0.02;
 
-/// A zero of a Taylor polynomial in each lane: its time from the centre, the slope there, and whether Newton's method
-/// converged.
+/// A zero of a Taylor polynomial in each lane: time from the centre, slope there, and whether Newton's method converged.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Zero<S: Simd, const N: usize> {
     pub time: Lanes<S, N>,
@@ -19,8 +17,8 @@ pub(super) struct Zero<S: Simd, const N: usize> {
     pub sure: Mask<S, N>,
 }
 
-/// Finds the zero of a Taylor polynomial near its centre in the lanes `of`: the series reverted to fourth order, then one
-/// step of Newton's method, in hard cases two.
+/// Finds the zero of a Taylor polynomial near its centre in the lanes `of`: the series reverted to fourth order, then one step of
+/// Newton's method, in hard cases two.
 #[inline(always)]
 pub(super) fn nearby_zero<S: Simd, const N: usize>(
     local: &LocalTaylor<S, N>,
@@ -51,8 +49,7 @@ pub(super) fn nearby_zero<S: Simd, const N: usize>(
     Zero { time, slope, sure }
 }
 
-/// True where the next step of Newton's method would be lost in rounding after `step`; `a`: half the curvature over the
-/// slope.
+/// True where another step of Newton's method after `step` is lost in rounding; `a`: half the curvature over the slope.
 #[inline(always)]
 fn is_last_step<S: Simd, const N: usize>(
     step: Lanes<S, N>,
@@ -63,8 +60,7 @@ fn is_last_step<S: Simd, const N: usize>(
     step.abs().below(window * window.like(1e-7)) & next.below(window * window.like(4e-16))
 }
 
-/// One step of Newton's method for a zero of a Taylor polynomial from the time `at`: the new time, the slope there, and the
-/// step.
+/// A step of Newton's method for a zero of a Taylor polynomial from `at`: the new time, the slope there, and the step.
 #[inline(always)]
 fn newton_step<S: Simd, const N: usize>(
     local: &LocalTaylor<S, N>,

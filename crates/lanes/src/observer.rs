@@ -4,16 +4,14 @@ use std::ops::ControlFlow;
 
 use softstop::Start;
 
-/// An observer of the motions of a batch. An implementation has the methods for what it observes, and sets the constants for
-/// them to true.
+/// An observer of the motions of a batch: it implements what it observes, and sets the constants for that to true.
 pub trait BatchObserver {
     /// True if the observer is told of impacts.
     const IMPACTS: bool = false;
     /// True if the observer is told of the ends of drive periods.
     const PERIODS: bool = false;
 
-    /// Told of an impact of a job's motion, `offset` seconds into the drive period `cycle`, with its velocity towards the
-    /// stop.
+    /// Told of an impact of a job's motion `offset` seconds into drive period `cycle`, with its velocity towards the stop.
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         let _ = (job, cycle, offset, velocity);
     }
@@ -23,8 +21,7 @@ pub trait BatchObserver {
         let _ = (job, cycle, state);
     }
 
-    /// Asked hundreds of times a second whether the batch goes on; on a break the motions that are not complete stay where
-    /// they are.
+    /// Asked hundreds of times a second whether the batch goes on; on a break motions stay where they are.
     fn goes_on(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }

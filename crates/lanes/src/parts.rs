@@ -29,8 +29,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         }
     }
 
-    /// Free and steady part after `time` of at most a window, computed from the nearer end of the window; `next`: the parts
-    /// at its later end.
+    /// Free and steady part after `time` of at most a window, from its nearer end; `next`: the parts at its later end.
     #[inline(always)]
     pub fn within_window(
         &self,
@@ -96,8 +95,8 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         }
     }
 
-    /// Bound |x''''| window^4 / 384 on the error of the cubic through positions and velocities over the next window; in
-    /// phases that one position alone ends, over all windows of a scan.
+    /// Bound |x''''| window^4 / 384 on the error of the cubic through positions and velocities over the next window; in phases
+    /// that one position alone ends, over all windows of a scan.
     #[inline(always)]
     pub fn position_error(&self, law: &Laws<S, N>) -> Lanes<S, N> {
         let Self { y, u, .. } = *self;
@@ -166,8 +165,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Free and steady part of the present motion of all lanes, as signed distances side (x - offset); the guard is at
-    /// `edge`.
+    /// Free and steady part of the present motion of all lanes, as signed distances side (x - offset).
     #[inline(always)]
     pub fn motion_parts(&self, law: &Laws<S, N>) -> Parts<S, N> {
         let (cos, sin) = self.state.angle;

@@ -2,8 +2,8 @@
 
 use super::law::PhaseConstants;
 
-/// The order in which a round of the loop visits the phases of machines with these graphs: each phase before its successors,
-/// but for the step that closes a cycle, so that lanes go from phase to phase in one round.
+/// The order in which a round of the loop visits the phases of machines with these graphs: each phase before its successors, but
+/// for the step that closes a cycle, so that lanes go from phase to phase in one round.
 pub(super) fn phase_order(outlines: &[PhaseGraph], most: usize) -> Vec<usize> {
     let mut beyond = vec![Vec::new(); most];
     for outline in outlines {

@@ -10,8 +10,7 @@ use super::lanes::{Lanes, Mask};
 use super::returns::ReturnDecision;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Begins to record the returns of a lane to an impact for a new job, unless an observer watches what would be skipped
-    /// between them.
+    /// Begins to record the returns of a lane to an impact for a new job, unless an observer watches what would be skipped.
     pub fn begin_recording(&mut self, lane: usize) {
         let (per_period, left) = (
             self.state.drive.per_period.get(lane),
@@ -23,14 +22,13 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Records the crossings, of any surface, of lanes that follow a trial cycle; `before`: their velocities before the
-    /// crossing.
+    /// Records crossings of any surface by lanes that follow a trial cycle; `before`: their velocities before.
     #[cold]
     #[inline(never)]
     pub fn record_trial_crossings(&mut self, crossed: Mask<S, N>, before: Lanes<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if crossed.get(lane) && self.returns[lane].is_trial() {
-                self.returns[lane].record_crossing(FaceCrossing {
+                self.returns[lane].passages.push(FaceCrossing {
                     position: self.state.x.get(lane),
                     velocity: before.get(lane),
                     velocity_after: self.state.v.get(lane),

@@ -12,8 +12,8 @@ use nalgebra::{Matrix2, Vector2};
 use super::arc_bounds::{ArcBounds, LinearError};
 use super::cycle::{Cycle, CycleArc};
 
-/// Bounds on the velocity and drive angle of the next return of any motion in a ball about a cycle: what the linear map and
-/// what rounding leaves out.
+/// Bounds on velocity and drive angle of the next return of any motion in a ball about a cycle: on what the linear map and what
+/// rounding leave out.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Remainder {
     /// What the linear map leaves out.
@@ -23,8 +23,8 @@ pub(super) struct Remainder {
 }
 
 impl Cycle {
-    /// Bounds on what the linear map leaves out of the next return of all motions whose return deviates from that of the
-    /// cycle by a vector of `ball`, the image of the unit disc; none if the remainder is too large on some arc.
+    /// Bounds on what the linear map leaves out of the next return of all motions whose return deviates from that of the cycle by
+    /// a vector of `ball`, the image of the unit disc; none if the remainder is too large on some arc.
     pub fn remainder(&self, ball: &Matrix2<f64>) -> Option<Remainder> {
         let mut rest = LinearError::default();
         let mut remainder = Remainder::default();
@@ -51,8 +51,7 @@ impl Cycle {
         })
     }
 
-    /// True if no motion of the ball meets another face than the cycle on one arc; `rest`: remainder at the crossing before
-    /// it.
+    /// True if no motion of the ball meets another face than the cycle on an arc; `rest`: remainder at the crossing before.
     fn arc_is_clear(
         &self,
         arc: &CycleArc,

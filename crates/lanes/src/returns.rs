@@ -30,8 +30,8 @@ use super::law::PhaseConstants;
 /// When returns of a lane are recorded, and how close they have to be for their limit to be extrapolated. Distances are of
 /// velocities in units of the first return's, and of times as angles of the drive in rad.
 struct ReturnSettings {
-    /// Drive periods from the beginning of a job to the first recording of returns, and from a failed attempt to the next
-    /// one, before the first growth.
+    /// Drive periods from the beginning of a job to the first recording of returns, and from a failed attempt to the next one,
+    /// before the first growth.
     periods_before_recording: f64,
     first_pause_periods: f64,
     /// Ratio of the length of each pause to that of the one before.
@@ -39,15 +39,15 @@ struct ReturnSettings {
     /// Most drive periods between two returns, and the largest difference from a whole number of them.
     max_periods: f64,
     max_time_offset: f64,
-    /// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
-    /// next to the first.
+    /// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return next
+    /// to the first.
     max_recurrence_ratio: f64,
     /// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
     min_periods_left: f64,
     /// Drive periods at the end of a job that are never extrapolated.
     followed_last_periods: f64,
-    /// Largest distances between two returns from which the number of returns until they are close is predicted, and from
-    /// which their limit is extrapolated.
+    /// Largest distances between two returns from which the number of returns until they are close is predicted, and from which
+    /// their limit is extrapolated.
     max_prediction_distance: f64,
     max_extrapolation_distance: f64,
     /// Largest last step of Newton's method, and the largest ratio of a step to the one before with which it goes on.
@@ -70,8 +70,7 @@ const SETTINGS: ReturnSettings = ReturnSettings {
     max_step_ratio: 0.3,
 };
 
-/// The state of a motion just after an impact, with time, phase and counts: a return, if the motion makes the same impact
-/// again and again.
+/// The state of a motion just after an impact, with time, phase and counts: a return, where it repeats the impact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct PostImpactState {
     pub position: f64,
@@ -120,7 +119,7 @@ pub(super) struct ReturnHistory {
     moment: f64,
     /// The trial cycle: its first return, its crossings and its derivatives.
     tried: PostImpactState,
-    passages: Vec<FaceCrossing>,
+    pub passages: Vec<FaceCrossing>,
     cycle: Cycle,
 }
 
@@ -148,18 +147,12 @@ pub(super) struct ReturnDecision {
 }
 
 impl ReturnHistory {
-    /// Begins with a job: `per_period` is 1 / drive period, `left` the number of its drive periods. Returns how many are left
-    /// when returns are recorded first.
+    /// Begins with a job of `left` drive periods, of 1 / `per_period` seconds; how many are left when returns are recorded first.
     pub fn begin_job(&mut self, per_period: f64, left: f64) -> f64 {
         self.per_period = per_period;
         (self.every, self.pause) = (1.0, SETTINGS.first_pause_periods);
         self.forget_returns(left - SETTINGS.periods_before_recording)
             .record_again_at
-    }
-
-    /// Records a crossing of the trial cycle that the lane follows.
-    pub fn record_crossing(&mut self, passage: FaceCrossing) {
-        self.passages.push(passage);
     }
 
     /// Records a return, and decides what the lane does next; none if it just goes on.
@@ -203,8 +196,8 @@ impl ReturnHistory {
         }))
     }
 
-    /// Whether the motion is back at the same impact from one state after an impact to another, in the expected drive
-    /// periods; none if these are not over.
+    /// Whether the motion is back at the same impact from one state after an impact to another, in the expected drive periods;
+    /// none if these are not over.
     fn is_cycle_complete(&self, before: &PostImpactState, now: &PostImpactState) -> Option<bool> {
         let periods = (before.left - now.left) + (now.offset - before.offset) * self.per_period;
         if periods < self.every - SETTINGS.max_time_offset {
@@ -220,8 +213,7 @@ impl ReturnHistory {
         )
     }
 
-    /// Drive periods after which the motion comes much closer to its first recorded return than after others; 1 if there are
-    /// none.
+    /// Drive periods after which the motion comes much closer to its first return than after others; 1 if there are none.
     fn recurrence_period(&self) -> f64 {
         let [first, rest @ ..] = self.own_points();
         let away = rest.map(|point| (point - first).norm());
@@ -269,8 +261,8 @@ impl ReturnHistory {
         ReturnDecision::wait(record_again_at)
     }
 
-    /// A return as whole drive periods since the first one, and a point of the return map (velocity in units of the first
-    /// one's, drive angle in rad).
+    /// A return as whole drive periods since the first one and a point of the return map (velocity over the first one's, drive
+    /// angle).
     fn return_point(&self, it: &PostImpactState) -> (f64, Vector2<f64>) {
         let periods = (self.left - it.left) + it.offset * self.per_period;
         let number = ((periods - self.moment) / self.every + 0.5) as i64;
@@ -283,8 +275,8 @@ impl ReturnHistory {
         std::array::from_fn(|index| self.return_point(&self.own[index]).1)
     }
 
-    /// The state after an impact at a point (velocity, drive angle) of the return map, `times` returns after the last one of
-    /// the motion itself.
+    /// The state after an impact at a point (velocity, drive angle) of the return map, `times` returns after the motion's last
+    /// one.
     fn return_at(&self, point: Vector2<f64>, times: f64) -> PostImpactState {
         let after = &self.own[RETURNS_PER_GUESS - 1];
         let (number, _) = self.return_point(after);
@@ -301,8 +293,8 @@ impl ReturnHistory {
         }
     }
 
-    /// Extrapolates the limit from the motion's own returns and begins a trial cycle there, or waits until they are close to
-    /// it; none if they do not approach one.
+    /// Extrapolates the limit from the motion's own returns and begins a trial cycle there, or waits until they are close to it;
+    /// none if they do not approach one.
     fn guess_limit(&mut self) -> Option<ReturnDecision> {
         let first = &self.own[0];
         (self.velocity, self.left) = (first.velocity, first.left);
@@ -407,8 +399,7 @@ impl ReturnHistory {
         })
     }
 
-    /// Extrapolates all drive periods but the last at once from the motion's own last return, or waits until that is exact
-    /// enough.
+    /// Extrapolates all drive periods but the last from the motion's own last return, or waits until that is exact enough.
     fn extrapolate_to_end(&mut self, certificate: &ContractionCertificate) -> ReturnDecision {
         let own = self.own[RETURNS_PER_GUESS - 1];
         let off = self.return_point(&own).1 - certificate.limit;

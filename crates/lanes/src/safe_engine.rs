@@ -130,8 +130,8 @@ pub(super) fn follow_safely(
     followed
 }
 
-/// A motion of the safe engine at the end of a drive period, to find that later periods repeat it. It is renewed when twice
-/// as many have gone by, so that it comes to lie on what the motion settles on (Brent, BIT 20, 1980).
+/// A motion of the safe engine at the end of a drive period, to find that later periods repeat it. It is renewed when twice as
+/// many have gone by, so that it comes to lie on what the motion settles on (Brent, BIT 20, 1980).
 struct KeptPeriod {
     motion: Motion,
     /// Drive periods, impacts and crossings by then.

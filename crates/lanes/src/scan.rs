@@ -10,8 +10,8 @@ use super::parts::Parts;
 
 /// Most windows of one scan, about a drive period; after it the lanes that have stopped decide their windows.
 pub(super) const MAX_SCAN_WINDOWS: usize = 12;
-/// Least distance of the second Bernstein coefficient of a window's cubic from the guard, in units of the cubic's error
-/// bound, that proves a motion clear of the guard that it leaves at the left end.
+/// Least distance of the second Bernstein coefficient of a window's cubic from the guard, in units of the cubic's error bound,
+/// that proves a motion clear of the guard that it leaves at the left end.
 pub(super) const LEAVING_MARGIN: f64 = 16.0 / 3.0;
 
 /// Where a scan has brought the lanes, and whether they may go on.

@@ -6,14 +6,12 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Pair};
 
-/// Degree in angle^2 of the sine and cosine series over half a window, 0.6 rad: the first term left out is 0.6^16 / 16! <
-/// 2e-17.
+/// Degree in angle^2 of the series of sine and cosine to 0.6 rad, half a window: the next term is 0.6^16 / 16! < 2e-17.
 pub(super) const HALF_WINDOW_DEGREE: usize = 7;
-/// Degree in angle^2 of the sine and cosine series over an eighth of a turn, 0.79 rad: the first term left out is below
-/// 3e-18.
+/// Degree in angle^2 of the series of sine and cosine to 0.79 rad, an eighth of a turn: the next term is below 3e-18.
 const EIGHTH_TURN_DEGREE: usize = 8;
-/// Degree in angle^2 of the sine and cosine series over the small drive angle to a nearby zero, at most 0.02 rad: the first
-/// term left out is 0.02^8 / 8! < 1e-18.
+/// Degree in angle^2 of the sine and cosine series over the small drive angle to a nearby zero, at most 0.02 rad: the first term
+/// left out is 0.02^8 / 8! < 1e-18.
 pub(super) const SMALL_ANGLE_DEGREE: usize = 3;
 
 /// Cosine and sine of an angle of `turns` full turns, 0 <= turns <= 1.
@@ -48,8 +46,7 @@ pub(super) fn cos_sinc<S: Simd, const N: usize, const DEGREE: usize>(
     )
 }
 
-/// 1 - q odd!/(odd + 2)! + q^2 odd!/(odd + 4)! - ... with q = angle^2: the cosine for `odd` = 0, the sine over the angle for
-/// 1.
+/// 1 - q odd!/(odd + 2)! + q^2 odd!/(odd + 4)! - ... with q = angle^2: the cosine for `odd` = 0, the sine over the angle for 1.
 #[inline(always)]
 fn alternating_series<S: Simd, const N: usize, const DEGREE: usize>(
     square: Lanes<S, N>,

@@ -103,12 +103,6 @@ impl<S: Simd, const N: usize> LaneStates<S, N> {
         self.window_fraction.set(lane, 1.0);
     }
 
-    /// Marks a lane as without a job.
-    #[inline(always)]
-    pub fn end_job(&mut self, lane: usize) {
-        self.left.set(lane, 0.0);
-    }
-
     /// The lanes that have a job.
     #[inline(always)]
     pub fn busy_lanes(&self) -> Mask<S, N> {
@@ -182,8 +176,8 @@ impl<S: Simd, const N: usize> LaneStates<S, N> {
         (done * done.like(1.0 / ANGLE_RENEWAL_PERIODS)).floor()
     }
 
-    /// Moves lanes whose time has passed the end of a drive period into the next one, and computes the drive angle from the
-    /// time every [`ANGLE_RENEWAL_PERIODS`] of a lane's own periods.
+    /// Moves lanes whose time has passed the end of a drive period into the next one, and computes the drive angle from the time
+    /// every [`ANGLE_RENEWAL_PERIODS`] of a lane's own periods.
     #[inline(always)]
     pub fn count_periods(&mut self) {
         let one = self.left.like(1.0);

@@ -7,12 +7,12 @@ use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::{NEAR, SAME};
 use softstop::{CheckedScene, Start};
 
-/// Two orbits of the same period are one if two of their states are as near as the first of these, and the
-/// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows. Or if they are as
-/// near as rounding leaves them, which a slow return amplifies.
+/// Largest distance between the nearest, and between the farthest, states of two orbits of the same period that are taken for
+/// one, in units of their size: on a strongly unstable stretch rounding grows. Orbits are also one if they are as near as
+/// rounding leaves them, which a slow return amplifies.
 const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
 
-/// The stable orbits of a scene that are known.
+/// The stable orbits of a scene that are known, by which the motions of a search or a survey are classified.
 pub(crate) struct AttractorCatalogue {
     scene: CheckedScene,
     pub orbits: Vec<KnownOrbit>,
@@ -32,8 +32,8 @@ impl AttractorCatalogue {
         self.scene.excitation.frequency
     }
 
-    /// The known orbit at which one of the last states of a log lies; the motion has been through its period since.
-    fn find_reached(&self, log: &[Start]) -> Option<usize> {
+    /// Index of the known orbit at which a motion has arrived: one of the last states of its log lies on the orbit.
+    fn find_arrived_orbit(&self, log: &[Start]) -> Option<usize> {
         self.orbits.iter().position(|known| {
             let recent = log.iter().rev().take(known.states.len());
             let mut gaps = recent.map(|state| self.orbit_distance(known, state));
@@ -41,19 +41,20 @@ impl AttractorCatalogue {
         })
     }
 
-    /// Distance in m/s of a state from a known orbit.
+    /// Distance in m/s of a state from the nearest state of a known orbit, positions times the drive's frequency.
     fn orbit_distance(&self, known: &KnownOrbit, state: &Start) -> f64 {
         let others = known.states.iter();
         let gaps = others.map(|other| state_distance(self.drive_frequency(), state, other));
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// What a motion whose last states are this log has come to; a new stable orbit is entered in the catalogue.
+    /// Classifies a motion by the log of its last states, one each drive period: arrived at an orbit, approaching one, at rest,
+    /// or wandering. A stable orbit that Newton's method finds from it is entered in the catalogue.
     pub(crate) fn classify_log(&mut self, log: &[Start]) -> Result<MemberStatus, OrbitError> {
         let Some(last) = log.last() else {
             return Ok(MemberStatus::Wandering);
         };
-        if let Some(orbit) = self.find_reached(log) {
+        if let Some(orbit) = self.find_arrived_orbit(log) {
             return Ok(MemberStatus::Arrived(orbit));
         }
         let Some(found) = find_recurrence(self.drive_frequency(), log) else {
@@ -73,19 +74,20 @@ impl AttractorCatalogue {
         let known = &self.orbits[orbit];
         let gap = self.orbit_distance(known, last);
         let is_near = found.distance <= SAME && gap <= NEAR * known.size;
-        Ok(match is_near || self.find_reached(log).is_some() {
+        Ok(match is_near || self.find_arrived_orbit(log).is_some() {
             true => MemberStatus::Arrived(orbit),
             false => MemberStatus::Approaching(orbit),
         })
     }
 
-    /// True if dry friction holds the mass at a state: not one orbit among others, but any place where it does.
+    /// True if dry friction holds the mass at a state for all of a drive period, or lets it creep ever more slowly: no isolated
+    /// orbit, but any place where it is held.
     fn is_at_rest(&self, state: &Start) -> Result<bool, OrbitError> {
         let period = StroboscopicMap::new(&self.scene, 1).apply((*state).into())?;
         Ok(period.is_at_rest(state, self.drive_frequency()))
     }
 
-    /// The known orbit that is the same as another one with these states, if there is one.
+    /// Index of the orbit in the catalogue that is the same as an orbit with these states, if there is one.
     fn find_known(&self, orbit: &Orbit, states: &[Start]) -> Option<usize> {
         let apart = |known: &KnownOrbit, shift: usize| {
             let pairs = states.iter().zip(known.states.iter().cycle().skip(shift));
@@ -116,7 +118,8 @@ impl AttractorCatalogue {
         })
     }
 
-    /// Enters a stable orbit in the catalogue, unless it is known, and returns its number.
+    /// Enters a stable orbit in the catalogue, unless it is known, and returns its index; `returned`: distance by which the
+    /// motion missed itself.
     fn enter_orbit(&mut self, orbit: Orbit, returned: f64) -> Result<usize, OrbitError> {
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
         if let Some(index) = self.find_known(&orbit, &states) {
@@ -137,7 +140,7 @@ impl AttractorCatalogue {
     }
 }
 
-/// A stable orbit in the catalogue.
+/// A stable orbit in the catalogue, with its states after each drive period.
 #[derive(Debug, Clone)]
 pub(crate) struct KnownOrbit {
     pub orbit: Orbit,

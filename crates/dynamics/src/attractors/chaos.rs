@@ -8,7 +8,7 @@ use crate::orbit::{LyapunovExponents, OrbitError, StroboscopicMap};
 use softstop::internals::narrow_root;
 use softstop::{CheckedScene, Crossing, Observer, Start};
 
-/// A chaotic motion, one that never repeats as far as it was watched.
+/// LyapunovExponents, impacts and lifetime of a chaotic motion: one that never repeats as far as it was watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Chaos {
@@ -24,12 +24,12 @@ pub struct Chaos {
     pub impacts_per_period: f64,
     /// Least and largest before-impact velocity in m/s seen; none without impacts.
     pub velocities: Option<[f64; 2]>,
-    /// Drive periods for which motions on it were watched, all together. Without an escape, its mean
-    /// lifetime exceeds a third of this with 95 % confidence.
+    /// Drive periods for which motions on it were watched, all together. Without an escape, its mean lifetime exceeds a third of
+    /// this with 95 % confidence.
     pub watched: u64,
 }
 
-/// Records the before-impact velocities in m/s of a motion.
+/// Observer that records the before-impact velocities of a motion in m/s.
 #[derive(Default)]
 struct ImpactVelocities(Vec<f64>);
 
@@ -39,11 +39,12 @@ impl Observer for ImpactVelocities {
     }
 }
 
-/// Most drive periods over which the impacts of chaos are counted.
+/// Most drive periods over which the impacts of a chaotic motion are counted.
 const MAX_COUNTED_PERIODS: u64 = 4096;
 
 impl Chaos {
-    /// The chaos that a motion from a state is, which still wanders at the end of its exponents.
+    /// Measures the impacts of a chaotic motion from the state `begin` on; `state`: where it is after its `exponents` were
+    /// measured.
     pub(super) fn of_motion(
         scene: &CheckedScene,
         ensemble: &Ensemble<'_>,
@@ -68,11 +69,11 @@ impl Chaos {
     }
 }
 
-/// How many motions on one chaos stayed and how many escaped, by the drive periods for which they were watched.
+/// Numbers of motions in a chaotic set that stayed in it and that escaped, by the time for which they were watched.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EscapeCounts(Vec<EscapeCount>);
 
-/// Motions on chaos that were watched for one length of time: those that stayed and those that escaped.
+/// Numbers of motions in one chaotic set, watched for the same number of drive periods, that stayed in it and that escaped.
 #[derive(Debug, Clone, Copy)]
 struct EscapeCount {
     periods: u64,
@@ -80,17 +81,17 @@ struct EscapeCount {
     gone: u64,
 }
 
-/// Range of the logarithm of the escape rate per drive period.
+/// Range in which the logarithm of the escape rate per drive period is searched.
 const LN_RATE_RANGE: (f64, f64) = (-40.0, 5.0);
 
 impl EscapeCounts {
-    /// Counts a motion on chaos that was watched for so many drive periods and has then escaped or not.
+    /// Counts a motion in the chaotic set that was watched for some drive periods, and has escaped by then or not.
     pub fn record_watch(&mut self, periods: u64, is_gone: bool) {
         let (stayed, gone) = (u64::from(!is_gone), u64::from(is_gone));
-        match self.0.iter_mut().find(|look| look.periods == periods) {
-            Some(look) => {
-                look.stayed += stayed;
-                look.gone += gone;
+        match self.0.iter_mut().find(|watch| watch.periods == periods) {
+            Some(watch) => {
+                watch.stayed += stayed;
+                watch.gone += gone;
             }
             None => self.0.push(EscapeCount {
                 periods,
@@ -100,30 +101,29 @@ impl EscapeCounts {
         }
     }
 
-    /// Drive periods for which motions on chaos were watched, all together.
+    /// Drive periods for which motions in the chaotic set were watched, all together.
     pub fn watched_periods(&self) -> u64 {
-        let watched = |look: &EscapeCount| look.periods * (look.stayed + look.gone);
+        let watched = |watch: &EscapeCount| watch.periods * (watch.stayed + watch.gone);
         self.0.iter().map(watched).sum()
     }
 
-    /// The mean lifetime of chaos in drive periods; none if no motion has escaped.
+    /// The mean lifetime of transient chaos in drive periods; none if no motion has escaped.
     ///
-    /// Lifetimes on chaos that ends are exponential (Grebogi, Ott and Yorke 1983). Of a motion that has gone it is
-    /// known only that it went between two looks. The rate r of greatest likelihood solves
-    /// sum gone P / (e^(r P) - 1) = sum stayed P.
+    /// Lifetimes on chaos that ends are exponential (Grebogi, Ott and Yorke 1983). Of a motion that has gone it is known only
+    /// that it went between two checks. The rate r of greatest likelihood solves sum gone P / (e^(r P) - 1) = sum stayed P.
     pub fn mean_lifetime(&self) -> Option<f64> {
-        if self.0.iter().all(|look| look.gone == 0) {
+        if self.0.iter().all(|watch| watch.gone == 0) {
             return None;
         }
-        let stayed = self.0.iter().map(|look| look.periods * look.stayed);
+        let stayed = self.0.iter().map(|watch| watch.periods * watch.stayed);
         let stayed: f64 = stayed.map(|periods| periods as f64).sum();
         // Where none has stayed, half a motion is taken to have.
-        let least = self.0.iter().map(|look| look.periods).min().unwrap_or(1);
+        let least = self.0.iter().map(|watch| watch.periods).min().unwrap_or(1);
         let stayed = stayed.max(0.5 * least as f64);
         let excess = |rate: f64| {
-            let share = |look: &EscapeCount| {
-                let periods = look.periods as f64;
-                look.gone as f64 * periods / (rate * periods).exp_m1()
+            let share = |watch: &EscapeCount| {
+                let periods = watch.periods as f64;
+                watch.gone as f64 * periods / (rate * periods).exp_m1()
             };
             self.0.iter().map(share).sum::<f64>() - stayed
         };
@@ -133,6 +133,41 @@ impl EscapeCounts {
             Ok::<f64, Infallible>(at(rate))
         });
         Some((-found.ok()?.middle()).exp())
+    }
+}
+
+/// A group of wandering motions that visit the same places: chaos, if the exponent of one of them is positive.
+#[derive(Default)]
+pub(super) struct ChaosCandidate {
+    pub exponents: Option<LyapunovExponents>,
+    pub chaos: Option<Chaos>,
+    /// Counts of the drive periods for which its motions were watched, and which had settled elsewhere then.
+    pub escapes: EscapeCounts,
+    /// Starts of the region that came to the group.
+    pub entered: usize,
+}
+
+impl ChaosCandidate {
+    /// Keeps the given exponents of a motion of the group if the first one is larger than that of the kept ones.
+    pub fn keep_largest_exponents(&mut self, exponents: LyapunovExponents) {
+        let first = |of: &LyapunovExponents| of.per_period[0];
+        if self
+            .exponents
+            .as_ref()
+            .is_none_or(|best| first(best).is_nan() || first(&exponents) > first(best))
+        {
+            self.exponents = Some(exponents);
+        }
+    }
+
+    /// The chaos of the group, with its lifetime by the counted escapes; none if the group is not chaotic.
+    pub fn chaos_with_escapes(&self) -> Option<Chaos> {
+        Some(Chaos {
+            watched: self.escapes.watched_periods(),
+            lifetime: self.escapes.mean_lifetime(),
+            entered: self.entered,
+            ..self.chaos?
+        })
     }
 }
 

@@ -10,21 +10,18 @@ use crate::extremes::extremes;
 use softstop::Start;
 use softstop::internals::budget;
 
-/// Share of the states of two logs whose nearest neighbours lie in the other log, from which on they are one motion. It
-/// is 0.5 on average for one motion, with a standard deviation of 0.05 or more for logs of 129 states, and 0 for two. So is
-/// the share of the larger set of cells that the logs have in common.
+/// Least share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs are of one motion:
+/// it is 0.5 on average for one motion, with a standard deviation of 0.05 or more for logs of 129 states, and 0 for two. Also the
+/// least share of the larger set of cells that logs of one motion have in common.
 const MIXED_SHARE: f64 = 0.1;
 
-/// Cells across the plane in which the places of logs are counted.
-const CELLS_ACROSS: f64 = 100.0;
-
-/// Pairs of states of two logs that are compared at the cost of one scan window.
+/// Number of pairs of states of two logs that are compared at the cost of one scan window.
 const STATE_PAIRS_PER_SCAN_WINDOW: usize = 8;
 
 /// A state in units of the width and height of the region that all logs fill.
 type ScaledState = [f64; 2];
 
-/// Groups logs of states by the places that they visit: the number of its group for each log.
+/// Groups logs of wandering motions that visit the same places, and so are of one motion: the index of its group for each log.
 ///
 /// # Errors
 /// Those of `ask`, which is asked for each log.
@@ -65,7 +62,7 @@ pub(super) fn group_logs<E>(
     Ok(group)
 }
 
-/// Width and height of the plane that the states of all logs fill.
+/// Width and height of the range of positions and velocities that the states of all logs fill.
 fn plane_units(logs: &[&[Start]]) -> [f64; 2] {
     let range = |value: fn(&Start) -> f64| match extremes(logs.iter().copied().flatten().map(value))
     {
@@ -75,13 +72,13 @@ fn plane_units(logs: &[&[Start]]) -> [f64; 2] {
     [range(|state| state.position), range(|state| state.velocity)]
 }
 
-/// Squared distance of two places, in units of the plane.
+/// Squared distance of two scaled states.
 fn squared_distance(a: &ScaledState, b: &ScaledState) -> f64 {
     let (x, v) = (a[0] - b[0], a[1] - b[1]);
     x * x + v * v
 }
 
-/// The squared distance of each place of a log from the nearest other one in it.
+/// The squared distance of each state of a log from the nearest other state of that log.
 fn nearest_gaps_within(log: &[ScaledState]) -> Vec<f64> {
     let gap = |index: usize| {
         let others = log.iter().enumerate().filter(|(other, _)| *other != index);
@@ -91,10 +88,11 @@ fn nearest_gaps_within(log: &[ScaledState]) -> Vec<f64> {
     (0..log.len()).map(gap).collect()
 }
 
-/// The cells of the plane that a log visits, in order.
+/// The cells of a grid over the plane of states that a log visits, sorted.
 fn visited_cells(log: &[ScaledState]) -> Vec<(i64, i64)> {
     let cell = |place: &ScaledState| {
-        let [x, v] = place.map(|part| (CELLS_ACROSS * part).floor() as i64);
+        // A hundred cells across the plane.
+        let [x, v] = place.map(|part| (100.0 * part).floor() as i64);
         (x, v)
     };
     let mut cells: Vec<(i64, i64)> = log.iter().map(cell).collect();
@@ -103,13 +101,14 @@ fn visited_cells(log: &[ScaledState]) -> Vec<(i64, i64)> {
     cells
 }
 
-/// True if two logs have enough of their cells in common.
+/// True if two logs have so many of their cells in common that they are of one motion.
 fn have_common_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
     let common = a.iter().filter(|cell| b.binary_search(cell).is_ok());
     common.count() as f64 >= MIXED_SHARE * a.len().max(b.len()) as f64
 }
 
-/// True if enough places of two logs have their nearest neighbour in the other one.
+/// True if so many states of two logs, each with its [`nearest_gaps_within`], are next to the other log that both are of one
+/// motion.
 fn are_mixed([one, other]: [(&[ScaledState], &[f64]); 2]) -> bool {
     let abroad = |(from, own): (&[ScaledState], &[f64]), to: &[ScaledState]| {
         let range = |axis: usize| extremes(to.iter().map(|at| at[axis])).unwrap_or([0.0; 2]);

@@ -24,7 +24,7 @@ use crate::orbit::{LyapunovExponents, Orbit};
 use crate::wilson_interval::wilson_interval;
 use softstop::{MotionError, Start};
 
-/// How certain a periodic motion is: residuals of its simulation and of its polished orbit.
+/// Residuals of a periodic motion: of its simulation, and of the orbit that Newton's method polished.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct OrbitResiduals {
@@ -36,7 +36,7 @@ pub struct OrbitResiduals {
     pub rounding: f64,
 }
 
-/// An attractor: what some of many starts come to.
+/// An attractor of a scene, with the share of the starts that come to it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Attractor {
@@ -63,7 +63,7 @@ pub struct Attractor {
 }
 
 impl Attractor {
-    /// An attractor of a kind of motion with a state of it, by the starts on it and all starts.
+    /// An attractor of a kind of motion with a state on it; `starts` of `all` starts came to it.
     pub(crate) fn new(motion: MotionKind, state: Start, (starts, all): (usize, usize)) -> Self {
         Self {
             motion,
@@ -79,7 +79,7 @@ impl Attractor {
         }
     }
 
-    /// An attractor that is a stable orbit, by the starts on it and all starts.
+    /// The attractor that a stable orbit is; `starts`: number of starts that came to it, and of all starts.
     pub(crate) fn from_orbit(orbit: &Orbit, starts: (usize, usize)) -> Self {
         Self {
             orbit: Some(Box::new(orbit.clone())),
@@ -88,7 +88,7 @@ impl Attractor {
     }
 }
 
-/// All attractors of a scene that were found.
+/// All attractors of a scene that a search has found.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Survey {
@@ -104,7 +104,7 @@ pub struct Survey {
     pub periods: u64,
 }
 
-/// How to search the attractors of a scene.
+/// Options of a search of the attractors of a scene: starts, and how long their motions are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SearchOptions {
     /// Number of starts in the region.
@@ -134,7 +134,7 @@ impl Default for SearchOptions {
     }
 }
 
-/// What the motion from a start has arrived at after the transient: its state, the stable orbit there, and whether it repeats.
+/// What the motion from a start has come to after the transient: its state, the stable orbit there, and whether it repeats.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Arrival {

@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::extremes::extremes;
-use crate::points::scramble_bits;
+use crate::points::{evenly_spread_point, uniform_from_seed};
 use softstop::internals::Scales;
 use softstop::{Dimension, Machine, Scene, Start};
 
-/// A region of starts: a rectangle of states at drive angle phi.
+/// A rectangle in the plane of states at drive angle phi, from which motions start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Region {
     /// Least and largest position in m.
@@ -16,22 +16,13 @@ pub struct Region {
     pub velocity: [f64; 2],
 }
 
-/// Half-size of the region of the pilot's starts, in units of the motion's length (and of w times it).
-const PILOT_HALF_SIZE: f64 = 3.0;
-/// Margin on each side of the region in which motions stay, as a share of it.
+/// Margin on each side of the states that a region of starts holds, as a share of their range.
 const REGION_MARGIN: f64 = 0.5;
-/// Least half-size of a region of starts, in units of the motion's length.
-const LEAST_HALF_SIZE: f64 = 0.1;
-/// Least half-size of the box of all starts, in units of the motion's length (and of w times it).
-const BOX_HALF_SIZE: f64 = 2.0;
-/// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly (Roberts 2018).
-const SEQUENCE_STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
-
 impl Region {
-    /// The region of the pilot's starts: far and wide about the origin.
+    /// The region of the first starts of a search, the pilot: three times the motion's length far and wide about the origin.
     pub(super) fn pilot(scene: &Scene) -> Self {
         let Scales { length, rate } = scene.motion_scales();
-        let (x, v) = (PILOT_HALF_SIZE * length, PILOT_HALF_SIZE * rate * length);
+        let (x, v) = (3.0 * length, 3.0 * rate * length);
         Self {
             position: [-x, x],
             velocity: [-v, v],
@@ -39,7 +30,7 @@ impl Region {
         .clipped_at_stops(scene)
     }
 
-    /// The region about all these states, with a margin; none if there is none.
+    /// The region about some states, with a margin; none if there are no states or one is not finite.
     pub(super) fn about_states<'a>(
         scene: &Scene,
         states: impl Iterator<Item = &'a Start> + Clone,
@@ -52,18 +43,19 @@ impl Region {
             [low - margin, high + margin]
         };
         let region = Self {
-            position: widen(position, LEAST_HALF_SIZE * length),
-            velocity: widen(velocity, LEAST_HALF_SIZE * rate * length),
+            position: widen(position, 0.1 * length),
+            velocity: widen(velocity, 0.1 * rate * length),
         };
         position[0]
             .is_finite()
             .then(|| region.clipped_at_stops(scene))
     }
 
-    /// The box that commands take starts from: twice the motion's length both ways, or wider where states need it.
+    /// The box about the origin from which commands take starts: twice the motion's length both ways, or wider to hold some
+    /// states.
     pub(crate) fn start_box(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
         let Scales { length, rate } = scene.motion_scales();
-        let (length, room) = (BOX_HALF_SIZE * length, 1.0 + REGION_MARGIN);
+        let (length, room) = (2.0 * length, 1.0 + REGION_MARGIN);
         let half = states
             .into_iter()
             .fold((length, length * rate), |(x, v), state| {
@@ -80,7 +72,7 @@ impl Region {
         .clipped_at_stops(scene)
     }
 
-    /// The region, and if states lie outside it a wider one that holds them with the same room.
+    /// The region itself if it holds some states, else its union with the [`Region::start_box`] of these.
     pub(crate) fn widened_to_hold(&self, scene: &Scene, states: &[Start]) -> Self {
         match states.iter().all(|state| self.contains(state)) {
             true => *self,
@@ -103,7 +95,7 @@ impl Region {
         }
     }
 
-    /// The region in words, in a machine's own units.
+    /// The region as text, in a machine's own units.
     pub fn describe(&self, machine: &Machine) -> String {
         let range = |[low, high]: [f64; 2], dimension, name: &str| {
             let own = |value| machine.to_own(dimension, value);
@@ -118,7 +110,7 @@ impl Region {
         format!("{position} and {velocity} at drive angle phi")
     }
 
-    /// The part of the region before rigid stops; the region moved there if no part of it is.
+    /// The part of the region before rigid stops; where all of it lies beyond them, the region is moved before them.
     pub fn clipped_at_stops(mut self, scene: &Scene) -> Self {
         let (lowest, highest) = scene.reach();
         let width = self.position[1] - self.position[0];
@@ -133,9 +125,9 @@ impl Region {
         self
     }
 
-    /// So many quasi-random starts, spread evenly over the region.
+    /// `count` quasi-random starts, spread evenly over the region and shifted by the seed.
     pub(crate) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
-        let shifts = [seeded_share(seed), seeded_share(!seed)];
+        let shifts = [uniform_from_seed(seed), uniform_from_seed(!seed)];
         let within = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
         let start = |index| {
             let [across, up] = evenly_spread_point(shifts, index);
@@ -143,14 +135,4 @@ impl Region {
         };
         (0..count).map(start).collect()
     }
-}
-
-/// The point of a quasi-random sequence with this index from 0 on, which fills the unit square evenly.
-pub fn evenly_spread_point(shifts: [f64; 2], index: usize) -> [f64; 2] {
-    std::array::from_fn(|axis| (shifts[axis] + SEQUENCE_STEPS[axis] * (index + 1) as f64).fract())
-}
-
-/// A number between 0 and 1 from a seed.
-fn seeded_share(seed: u64) -> f64 {
-    (scramble_bits(seed) >> 11) as f64 / (1u64 << 53) as f64
 }

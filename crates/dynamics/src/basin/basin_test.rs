@@ -17,22 +17,23 @@ use nalgebra::{Complex, Vector2};
 use softstop::{Instant, MotionError, Scene, Start};
 use softstop_lanes::LoweredMachine;
 
-/// Motions of a basin test that go together, enough for all lanes, whatever the number of threads.
+/// Number of motions of a basin test that are advanced together: enough for all lanes, whatever the number of threads.
 const MOTIONS_TOGETHER: usize = 512;
-/// Drive periods between two looks at whether motions have arrived in a ball.
+/// Drive periods between two checks whether motions have arrived in a contraction ball.
 pub(super) const PERIODS_BETWEEN_CHECKS: u64 = 16;
-/// Drive periods that motions of a basin test may take before they come near the orbit.
+/// Drive periods that the motions of a basin test may take before they come near the orbit.
 const APPROACH_PERIODS: u64 = 256;
-/// Exponent of e to which motions near a tested orbit must decay, by its slowest multiplier, to arrive.
+/// Logarithm of the factor by which motions near the tested orbit have to decay, by its slowest multiplier, to have arrived.
 const SETTLING_EXPONENT: f64 = 28.0;
-/// Decay a drive period, as an exponent, below which a basin test does not follow all motions to their end: 20,000 drive periods.
+/// Decay rate of an orbit, as ln per drive period, below which a basin test does not follow all motions to their end, for 20,000
+/// periods.
 pub const SLOW_DECAY: f64 = SETTLING_EXPONENT / 20_000.0;
-/// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold.
+/// Decay rate of an orbit, as ln per drive period, that rounding cannot tell from 0: it is at a border of stability, as a fold.
 const MIN_DECAY_EXPONENT: f64 = 1e-5;
-/// Drive periods that motions get to come to an orbit at a border.
+/// Drive periods that motions get to come to an orbit at a border of stability.
 const BORDER_PERIODS: u64 = 512;
 
-/// A test of which motions come to a stable orbit, by balls about its points in which its map contracts.
+/// A test of which motions come to a stable orbit: they arrive in balls about its points in which its map contracts.
 pub struct BasinTest {
     machine: LoweredMachine,
     states: Vec<Start>,
@@ -43,12 +44,12 @@ pub struct BasinTest {
     arrived: f64,
 }
 
-/// Number of the tested orbit among the balls.
+/// Index of the tested orbit in the contraction balls.
 const OWN_ORBIT: usize = 0;
-/// Number of the motion without impacts among the balls.
+/// Index of the motion without impacts in the contraction balls.
 const IMPACTLESS_ORBIT: usize = 1;
 
-/// A motion of a basin test, which comes to the orbit or does not.
+/// A motion of a basin test, with its time and the strokes that it has missed.
 #[derive(Debug, Clone)]
 pub(crate) struct TestedMotion {
     pub member: Member,
@@ -63,7 +64,7 @@ pub(crate) struct TestedMotion {
 }
 
 impl TestedMotion {
-    /// True if the motion has come to the orbit of the basin test.
+    /// True if the motion has come to the tested orbit.
     pub fn reaches_orbit(&self) -> bool {
         self.member.status == MemberStatus::Arrived(OWN_ORBIT)
     }
@@ -81,7 +82,7 @@ impl HasMember for TestedMotion {
 }
 
 impl BasinTest {
-    /// The basin test of an orbit; nothing comes to one that is unstable or neutral.
+    /// The basin test of an orbit; no motion is said to come to an unstable or neutral orbit.
     ///
     /// # Errors
     /// [`MotionError`] if the orbit cannot be computed.
@@ -115,8 +116,8 @@ impl BasinTest {
         })
     }
 
-    /// Which of the motions from these states at drive angle phi come to the orbit of the basin test; a motion that
-    /// cannot be computed does not. The same for any number of threads. The monitor is not told how much is done.
+    /// Which of the motions from `starts` at drive angle phi come to the tested orbit; one that cannot be computed does not. The
+    /// result is the same for any number of threads. The monitor is not told how much is done.
     ///
     /// # Errors
     /// [`OrbitError::Stopped`].
@@ -128,8 +129,8 @@ impl BasinTest {
         self.follow_starts(starts, &|_| false, monitor)
     }
 
-    /// Whether at least so many of the motions from these states come to the orbit of the basin test. They are followed until
-    /// that is known. The answer is the same for any number of threads, what it costs is not.
+    /// Whether at least `needed` of the motions from `starts` at drive angle phi come to the tested orbit; they are followed
+    /// until that is known. The answer is the same for any number of threads, what it costs is not.
     ///
     /// # Errors
     /// As [`BasinTest::test_starts`].
@@ -152,8 +153,8 @@ impl BasinTest {
         Ok(reached.into_inner() >= needed)
     }
 
-    /// Follows motions from states at drive angle phi until each has ended or what is told of those that have, whether they
-    /// reach the orbit, decides: which of them have reached it.
+    /// Follows motions from `starts` at drive angle phi until each has ended or `is_decided`, which is told of each end whether
+    /// the orbit is reached, is true: which of them have reached it.
     fn follow_starts(
         &self,
         starts: &[Start],
@@ -177,8 +178,8 @@ impl BasinTest {
         Ok(parallel::try_map_chunks(starts, MOTIONS_TOGETHER, follow_motions)?.concat())
     }
 
-    /// Follows motions until they have reached the orbit or are given up, or one that has ended decides, with or without
-    /// counting their strokes. The machines differ from the orbit's in the drive angle alone with which they start.
+    /// Follows motions until they have reached the tested orbit or are given up, or `is_decided` is true at the end of one;
+    /// `COUNTS`: their strokes are counted. The machines differ from the orbit's only in the drive angle with which they start.
     pub(crate) fn follow_motions<const COUNTS: bool>(
         &self,
         machines: &[LoweredMachine],
@@ -209,7 +210,7 @@ impl BasinTest {
         Ok(motions)
     }
 
-    /// What a motion of the basin test has come to.
+    /// What a motion of the basin test has come to; `is_last`: it is followed no farther.
     fn classify_motion(&self, motion: &TestedMotion, is_last: bool) -> MemberStatus {
         let scene = self.machine.scene();
         let frequency = scene.excitation.frequency;
@@ -227,7 +228,7 @@ impl BasinTest {
     }
 }
 
-/// The periodic motion of a scene without impacts, if there is one.
+/// The periodic motion of a scene without impacts; none if it would strike a stop.
 fn find_impactless_orbit(scene: &Scene) -> Option<Orbit> {
     let drive = scene.excitation;
     if free_amplitude(scene, drive.frequency) >= scene.least_clearance() {

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use softstop::{CheckedScene, Excitation, MotionError, Start};
 
-/// The state of a motion from a start at a drive angle in rad when that angle next is the drive's phi.
+/// The state of the motion from a start at drive angle `angle`, in rad, when the drive angle is next phi, at which maps are
+/// taken.
 pub(crate) fn bring_to_section(
     scene: &CheckedScene,
     start: Start,

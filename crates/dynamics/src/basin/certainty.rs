@@ -23,9 +23,9 @@ pub struct CertaintyAtPlace {
     pub basins: Basins,
 }
 
-/// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to rise
-/// from 0 at s_SN to 1 at g0): the share of the initial states of a grid that lead to it, or to any of several z = 1
-/// motions, a weak and a strong one say. The monitor is told of the cells done at all places.
+/// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to rise from 0 at
+/// s_SN to 1 at g0): the share of the initial states of a grid that lead to any z = 1 motion. The monitor is told of the cells
+/// done at all places.
 ///
 /// # Errors
 /// [`ZoneError`] if a place lies outside the zone, the basins cannot be computed or the monitor says stop.

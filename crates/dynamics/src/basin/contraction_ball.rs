@@ -8,26 +8,26 @@ use crate::orbit::{Orbit, StroboscopicMap, multipliers};
 use crate::tolerance::SAME;
 use softstop::{MotionError, Start};
 
-/// Contraction balls about the points of some orbits, by the numbers of these.
+/// Contraction balls about the points of several orbits, each with the index of its orbit.
 #[derive(Debug, Default)]
 pub(super) struct ContractionBalls(Vec<(usize, ContractionBall)>);
 
 impl ContractionBalls {
-    /// Adds the contraction balls about an orbit; points about which none was found have none.
+    /// Adds the contraction balls about the points of an orbit; a point about which none is found has none.
     pub fn add_orbit(&mut self, index: usize, orbit: &Orbit) -> Result<(), MotionError> {
         let balls = ContractionBall::about_orbit(orbit)?.into_iter();
         self.0.extend(balls.map(|ball| (index, ball)));
         Ok(())
     }
 
-    /// The number of the orbit in one of whose contraction balls a state lies, the first of several.
+    /// The index of the first orbit in one of whose contraction balls a state lies; none if it lies in no ball.
     pub fn orbit_holding(&self, state: Start) -> Option<usize> {
         let ball = self.0.iter().find(|(_, ball)| ball.contains(state));
         ball.map(|(orbit, _)| *orbit)
     }
 }
 
-/// A ball |L (s - c)| <= r in which the map contracts: a motion in it has arrived.
+/// A ball |L (s - c)| <= r about a point of a stable orbit in which its map contracts: motions in it come to the orbit.
 #[derive(Debug, Clone, Copy)]
 struct ContractionBall {
     centre: Vector2<f64>,
@@ -36,13 +36,11 @@ struct ContractionBall {
     square: f64,
 }
 
-/// Radii of the rings on which the Jacobian is tested, in shares of that of the ball.
+/// Radii of the rings in a contraction ball on which the Jacobian is tested, in units of that of the ball.
 const RING_RADII: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
-/// Points on each ring at which the Jacobian is tested.
+/// Number of points on each ring at which the Jacobian is tested.
 const RING_POINTS: usize = 24;
-/// Factor by which a radius of a contraction ball that is too large shrinks.
-const RADIUS_SHRINK: f64 = 0.7;
-/// Most terms of the series of the contracting norm.
+/// Most terms of the series for the contracting norm.
 const MAX_NORM_TERMS: usize = 20_000;
 
 impl ContractionBall {
@@ -52,7 +50,7 @@ impl ContractionBall {
         (self.shape * gap).norm_squared() <= self.square
     }
 
-    /// The contraction balls about all points of an orbit.
+    /// The contraction balls about all points of an orbit about which one is found.
     fn about_orbit(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
         let map = StroboscopicMap::new(&orbit.scene, orbit.periods);
         let states = orbit.states()?;
@@ -64,7 +62,8 @@ impl ContractionBall {
         states.into_iter().filter_map(ball).collect()
     }
 
-    /// The contraction ball about one point of an orbit, the largest tried in which the map contracts.
+    /// The contraction ball about one point of an orbit: the largest tried in which the Jacobian contracts at all test points,
+    /// with the orbit's number of impacts.
     fn about_point(
         map: &StroboscopicMap,
         centre: Vector2<f64>,
@@ -94,7 +93,7 @@ impl ContractionBall {
                     square: radius * radius,
                 }));
             }
-            radius *= RADIUS_SHRINK;
+            radius *= 0.7;
         }
         Ok(None)
     }
@@ -118,8 +117,8 @@ fn largest_singular_value(matrix: &Matrix2<f64>) -> f64 {
         .sqrt()
 }
 
-/// A norm in which a matrix contracts: L such that |L M s| <= g |L s| with g half-way between M's largest multiplier
-/// and 1: L^T L = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M contracts in the end.
+/// A norm |L s| in which a stable matrix M contracts, with its factor g half-way between the largest multiplier of M and 1: L^T L
+/// = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M is stable.
 fn contracting_norm(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
     let spectral = multipliers(matrix)[0].norm();
     let rate = 0.5 * (1.0 + spectral);

@@ -3,7 +3,7 @@
 
 use super::Basins;
 
-/// Cells on a side of the boxes in which the entropy of basins is counted, as in the source.
+/// Number of cells on a side of the boxes in which the entropy of basins is counted, as in the source.
 const BOX_CELLS: usize = 5;
 
 /// The basin entropy of a grid.
@@ -42,7 +42,7 @@ impl Basins {
     }
 }
 
-/// The cells along an axis at which boxes of the basin entropy begin.
+/// The cells along an axis at which the boxes of the basin entropy begin.
 fn box_starts(cells: usize) -> impl Iterator<Item = usize> + Clone {
     (0..cells).step_by(BOX_CELLS)
 }

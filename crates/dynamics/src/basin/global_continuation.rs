@@ -28,8 +28,8 @@ pub struct BasinsAt {
     pub entropy: BasinEntropy,
 }
 
-/// Follows attractors along a parameter: the basins of scenes, one for each value, in order; the grid is the same for
-/// all. The monitor is told of the cells done at all values, and of each value whose attractors have been carried over.
+/// Follows attractors along a parameter: the basins of scenes, one for each value, in order; the grid is the same for all. The
+/// monitor is told of the cells done at all values, and of each value whose attractors have been carried over.
 ///
 /// # Errors
 /// As [`find_basins`](super::find_basins).
@@ -77,7 +77,7 @@ pub fn follow_attractors(
     Ok(found)
 }
 
-/// A claim that an attractor of the last value goes on as the motion of a class at this one.
+/// A claim that an attractor at the last value of the parameter goes on as the motion of a class at the next value.
 struct Claim {
     attractor: usize,
     class: usize,
@@ -85,7 +85,7 @@ struct Claim {
     gap: f64,
 }
 
-/// The claims of the attractors of the last value to classes at this one, the surest first.
+/// The claims of the attractors at the last value of the parameter to classes at the next value, the surest first.
 fn find_claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitError> {
     let mut claims = Vec::new();
     for (old, attractor) in last.basins.classes.iter().zip(&last.attractors) {
@@ -114,7 +114,7 @@ fn find_claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitErro
     Ok(claims)
 }
 
-/// Enters in the basins the orbits to which states of the attractors of the last value lead.
+/// Enters in the basins at one value of the parameter the orbits to which states of the attractors at the last value lead.
 fn carry_over_orbits(
     last: &BasinsAt,
     scene: &Scene,
@@ -147,7 +147,7 @@ fn carry_over_orbits(
     Ok(())
 }
 
-/// Enters in the basins a stable orbit without cells, unless it is known.
+/// Enters in the basins an orbit that was carried over from the last value, as a class without cells, unless it is known.
 fn enter_orbit(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
     for class in &basins.classes {
         if let Some(known) = class.orbit.as_deref()
@@ -162,7 +162,7 @@ fn enter_orbit(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
     Ok(())
 }
 
-/// Distance of two orbits: the largest of a state of one from the nearest of the other, in units of their size.
+/// Distance of two orbits, in units of their size: the largest of a state of one from the nearest state of the other.
 fn orbit_gap(one: &Orbit, other: &Orbit) -> Result<f64, OrbitError> {
     let states = |orbit: &Orbit| -> Result<Vec<Start>, OrbitError> {
         Ok(orbit.states()?.into_iter().map(Start::from).collect())

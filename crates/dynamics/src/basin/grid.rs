@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use softstop::Start;
 
-/// A grid of cells in a plane of initial states; cell `row * across.cells + column`.
+/// A grid of cells in a plane of initial states; the cells are numbered row by row, `row * across.cells + column`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// The axis of the columns.
@@ -34,7 +34,7 @@ impl Grid {
         self.across.cells * self.up.cells
     }
 
-    /// The initial state of a cell of the grid, and its drive angle in rad.
+    /// The initial state in the middle of a cell, and its drive angle in rad.
     pub fn start_of_cell(&self, cell: usize) -> (Start, f64) {
         let (mut state, mut angle) = (self.state, self.angle);
         let places = [
@@ -106,7 +106,7 @@ impl Axis {
         from + (cell as f64 + 0.5) / self.cells as f64 * (to - from)
     }
 
-    /// Length of a cell in units of half the axis.
+    /// Length of a cell of the axis, in units of half the axis.
     pub(super) fn cell_length(&self) -> f64 {
         2.0 / self.cells as f64
     }

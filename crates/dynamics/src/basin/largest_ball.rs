@@ -1,6 +1,8 @@
 //! The largest ball inside a basin, which measures its integrity.
 
+use super::Basins;
 use super::grid::{Axis, Grid};
+use crate::orbit::Regime;
 
 /// The largest ball of cells inside a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -8,12 +10,27 @@ use super::grid::{Axis, Grid};
 pub struct BasinBall {
     /// Its centre on both axes of the grid.
     pub centre: [f64; 2],
-    /// Distance from there to the nearest cell of another basin or to the edge of the grid, in units of half
-    /// of each axis: 1 would fill the grid. On the axes it is an ellipse.
+    /// Distance from there to the nearest cell of another basin or to the edge of the grid, in units of half of each axis: 1
+    /// would fill the grid. On the axes it is an ellipse.
     pub radius: f64,
 }
 
-/// The largest ball on a grid all of whose cells are `inside`, about the middle of a cell.
+impl Basins {
+    /// The largest ball of cells that lies inside the basin of a class and inside the grid; none if the basin has no cell.
+    pub fn largest_ball(&self, class: usize) -> Option<BasinBall> {
+        find_largest_ball(&self.grid, |cell| usize::from(self.cells[cell]) == class)
+    }
+
+    /// The largest ball of cells all of whose motions settle in a regime, on one motion or on several of it.
+    pub fn largest_ball_of(&self, regime: Regime) -> Option<BasinBall> {
+        find_largest_ball(&self.grid, |cell| {
+            let class = &self.classes[usize::from(self.cells[cell])];
+            class.motion.regime() == Some(regime)
+        })
+    }
+}
+
+/// The largest ball about the middle of a cell of a grid all of whose cells are `inside`; none if no cell is.
 pub fn find_largest_ball(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<BasinBall> {
     // One row and column of outside all around.
     let (columns, rows) = (grid.across.cells + 2, grid.up.cells + 2);
@@ -65,8 +82,8 @@ pub fn find_largest_ball(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<
     })
 }
 
-/// The distance transform of a row of squared distances: min over q of f(q) + (h (p - q))^2 for all p, the lower
-/// envelope of parabolas (Felzenszwalb and Huttenlocher 2012).
+/// The distance transform of a row of squared distances: min over q of f(q) + (h (p - q))^2 for all p, the lower envelope of
+/// parabolas (Felzenszwalb and Huttenlocher 2012).
 fn distance_transform(f: &[f64], h: f64) -> Vec<f64> {
     let square = |q: usize| (h * q as f64) * (h * q as f64);
     // Parabolas of the envelope, and from where on each is the lowest, in units of h.

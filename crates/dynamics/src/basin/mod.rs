@@ -26,14 +26,17 @@
 
 mod basin_test;
 mod bring_to_section;
-mod cells;
 mod certainty;
+mod classify_cells;
 mod contraction_ball;
 mod entropy;
-mod establishment_and_erosion;
+mod erosion_profile;
+mod establishment;
 mod global_continuation;
 mod grid;
 mod largest_ball;
+mod settle_cells;
+mod start_balls;
 mod survey;
 
 pub use crate::wilson_interval::wilson_interval;
@@ -42,7 +45,8 @@ pub use basin_test::{BasinTest, SLOW_DECAY};
 pub(crate) use bring_to_section::bring_to_section;
 pub use certainty::{CertaintyAtPlace, establishing_certainties};
 pub use entropy::BasinEntropy;
-pub use establishment_and_erosion::{ErosionProfile, Establishment, Integrity, zone_box};
+pub use erosion_profile::{ErosionProfile, Integrity, zone_box};
+pub use establishment::Establishment;
 pub use global_continuation::{BasinsAt, follow_attractors};
 pub use grid::{Axis, AxisQuantity, Grid};
 pub use largest_ball::{BasinBall, find_largest_ball};
@@ -53,14 +57,14 @@ use serde::Serialize;
 use crate::attractors::Attractor;
 use crate::orbit::Regime;
 
-/// All basins on a grid.
+/// All basins on a grid: the attractors, and which of them each cell settles on.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Basins {
     /// Where the cells lie.
     pub grid: Grid,
-    /// The attractors on which the cells' motions settle: periodic motions by period, impacts and hardest impact; then
-    /// rest, chaos (nothing that returns, with a positive exponent), what is unsettled, and what is lost.
+    /// The attractors on which the cells' motions settle: periodic motions by period, impacts and hardest impact; then rest,
+    /// chaos (nothing that returns, with a positive exponent), what is unsettled, and what is lost.
     pub classes: Vec<Attractor>,
     /// The basin of each cell, row by row.
     pub cells: Vec<u16>,
@@ -77,22 +81,9 @@ impl Basins {
         let all = self.cells.len();
         (cells as f64 / all as f64, wilson_interval(cells, all))
     }
-
-    /// The largest ball that lies inside a basin and inside the grid; none if the basin is not there.
-    pub fn largest_ball(&self, class: usize) -> Option<BasinBall> {
-        find_largest_ball(&self.grid, |cell| usize::from(self.cells[cell]) == class)
-    }
-
-    /// The largest ball of cells all of whose motions settle in a regime, be it on one motion or on several of it.
-    pub fn largest_ball_of(&self, regime: Regime) -> Option<BasinBall> {
-        find_largest_ball(&self.grid, |cell| {
-            let class = &self.classes[usize::from(self.cells[cell])];
-            class.motion.regime() == Some(regime)
-        })
-    }
 }
 
-/// How to follow the motions of a grid's cells.
+/// Options of a survey of basins: how long the motions of a grid's cells are followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BasinOptions {
     /// Drive periods after which a motion that no ball holds is classified by its log, or followed on if it settles slowly.

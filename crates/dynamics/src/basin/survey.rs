@@ -10,23 +10,23 @@ use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
 use crate::orbit::OrbitError;
 use crate::parallel;
-use softstop::{CheckedScene, MotionError, Scene, Start};
+use softstop::{CheckedScene, Scene, Start};
 use softstop_lanes::LoweredMachine;
 
-/// Cells of a tile, which go together: enough for all lanes, whatever the number of threads.
+/// Number of cells of a tile, which are followed together: enough for all lanes, whatever the number of threads.
 pub(super) const TILE_CELLS: usize = 4096;
-/// Cells that are brought to the section between two questions to the monitor.
+/// Number of cells that are brought to drive angle phi between two questions to the monitor.
 const CELLS_BROUGHT_TOGETHER: usize = 1 << 16;
-/// Scouts on each axis of the grid: these cells are judged first.
+/// Number of scouts along each axis of the grid: cells that are classified first, so that the catalogue knows most orbits.
 const SCOUTS_PER_AXIS: usize = 16;
 
-/// Cells that are judged by their logs before what they have come to is stored; so many groups of the ensemble's.
+/// Number of cells that are classified by their logs before what they have come to is stored.
 const CELLS_JUDGED_TOGETHER: usize = 1024;
 
-/// The number of a cell that is lost, and why.
+/// The index of a cell whose motion cannot be computed, and why.
 pub(super) type LostCell = (usize, String);
 
-/// A survey of the basins of a scene on a grid, under way.
+/// A survey of the basins of a scene on a grid, under way: states and outcomes of the cells, and the orbits that are known.
 pub(super) struct BasinSurvey<'a> {
     pub scene: CheckedScene,
     pub grid: &'a Grid,
@@ -45,10 +45,10 @@ pub(super) struct BasinSurvey<'a> {
     pub kept: OptionalMemory<'a>,
 }
 
-/// The log of a cell's motion: its latest state, the last ones, and why it ended.
+/// The log of a cell's motion: its latest state, its last states, one each drive period, and why it ended, if it did.
 type CellLog = (Start, Vec<Start>, Option<String>);
 
-/// What some cells were judged to have come to.
+/// What some cells have come to by their logs, which is stored as one piece.
 #[derive(Serialize, Deserialize, Default)]
 struct CellOutcomes {
     states: Vec<Start>,
@@ -115,7 +115,7 @@ pub(super) fn find_basins_of_scenes<'a>(
 }
 
 impl BasinSurvey<'_> {
-    /// Brings the states of all cells to drive angle phi.
+    /// Advances the motions of all cells to where the drive angle is phi.
     fn bring_cells_to_section(&mut self) -> Result<(), OrbitError> {
         let cells = self.grid.cell_count();
         self.states.reserve(cells);
@@ -123,8 +123,10 @@ impl BasinSurvey<'_> {
         for from in (0..cells).step_by(CELLS_BROUGHT_TOGETHER) {
             self.ensemble.count_work(0)?;
             let here = from..cells.min(from + CELLS_BROUGHT_TOGETHER);
-            let brought =
-                parallel::map_indices(here.len(), &|index| self.cell_at_section(from + index));
+            let brought = parallel::map_indices(here.len(), &|index| {
+                let (start, angle) = self.grid.start_of_cell(from + index);
+                bring_to_section(&self.scene, start, angle)
+            });
             for (cell, result) in here.zip(brought) {
                 let (state, outcome) = match result {
                     Ok(state) => (state, MemberStatus::Open),
@@ -140,13 +142,7 @@ impl BasinSurvey<'_> {
         Ok(())
     }
 
-    /// The state of a cell's motion when the drive angle next is phi.
-    fn cell_at_section(&self, cell: usize) -> Result<Start, MotionError> {
-        let (start, angle) = self.grid.start_of_cell(cell);
-        bring_to_section(&self.scene, start, angle)
-    }
-
-    /// Judges a few cells, spread over the grid, which fill the catalogue.
+    /// Classifies the scouts, cells spread over the grid, which fills the catalogue of known orbits.
     pub(super) fn scout_grid(&mut self) -> Result<(), OrbitError> {
         let (columns, rows) = (self.grid.across.cells, self.grid.up.cells);
         let along = |cells: usize| cells.div_ceil(SCOUTS_PER_AXIS);
@@ -161,17 +157,17 @@ impl BasinSurvey<'_> {
         self.judge_cells(&cells, self.transient)
     }
 
-    /// Keeps why a cell is lost; that of the first one stands.
+    /// Keeps a lost cell of the survey, if none before it is kept.
     pub(super) fn keep_first_lost(&mut self, lost: Option<LostCell>) {
         self.lost = earlier_lost(self.lost.take(), lost);
     }
 
-    /// The cells that have not come to anything yet.
+    /// Indices of the cells whose motions have not come to anything yet.
     pub(super) fn open_cells(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == MemberStatus::Open)
     }
 
-    /// Judges all cells that no ball holds.
+    /// Classifies all cells by their logs whose motions no contraction ball holds.
     pub(super) fn judge_all(&mut self) -> Result<(), OrbitError> {
         let open: Vec<usize> = self.open_cells().collect();
         for cells in open.chunks(CELLS_JUDGED_TOGETHER) {
@@ -180,7 +176,7 @@ impl BasinSurvey<'_> {
         Ok(())
     }
 
-    /// Follows cells for so many drive periods, and judges each by its log; stored outcomes are recalled.
+    /// Follows cells for some drive periods, and classifies each by its log; outcomes that are stored are recalled.
     fn judge_cells(&mut self, cells: &[usize], periods: u64) -> Result<(), OrbitError> {
         let of = (
             "look",
@@ -192,53 +188,53 @@ impl BasinSurvey<'_> {
             periods,
         );
         let mut is_known = true;
-        let looked = recall_or_compute(self.kept, &of, || {
+        let judged = recall_or_compute(self.kept, &of, || {
             is_known = false;
             self.judge_anew(cells, periods)
         })?;
         if is_known {
-            for log in &looked.entered {
+            for log in &judged.entered {
                 self.judge_log(log)?;
             }
-            self.count_settled(&looked.outcomes)?;
+            self.count_settled(&judged.outcomes)?;
         }
-        let ends = looked.states.into_iter().zip(looked.outcomes);
+        let ends = judged.states.into_iter().zip(judged.outcomes);
         for (cell, (state, outcome)) in cells.iter().zip(ends) {
             (self.states[*cell], self.outcomes[*cell]) = (state, outcome);
         }
-        self.keep_first_lost(looked.lost);
+        self.keep_first_lost(judged.lost);
         Ok(())
     }
 
-    /// Counts cells but those that wander, which may be followed on.
+    /// Tells the monitor of outcomes that are final, which those of wandering cells are not.
     fn count_settled(&self, outcomes: &[MemberStatus]) -> Result<(), OrbitError> {
         let settled = outcomes.iter().filter(|it| **it != MemberStatus::Wandering);
         self.ensemble.count_work(settled.count() as u64)
     }
 
-    /// Follows cells for so many drive periods, and judges each by its log.
+    /// Computes the logs and outcomes of cells that [`BasinSurvey::judge_cells`] finds in no store.
     fn judge_anew(&mut self, cells: &[usize], periods: u64) -> Result<CellOutcomes, OrbitError> {
         let seen = self.log_cells(cells, periods)?;
-        let mut looked = CellOutcomes::default();
+        let mut judged = CellOutcomes::default();
         for (cell, (state, log, error)) in cells.iter().zip(seen) {
             let known = self.catalogue.orbits.len();
-            looked.states.push(state);
-            looked.outcomes.push(match error {
+            judged.states.push(state);
+            judged.outcomes.push(match error {
                 Some(error) => {
-                    looked.lost.get_or_insert((*cell, error));
+                    judged.lost.get_or_insert((*cell, error));
                     MemberStatus::Lost
                 }
                 None => self.judge_log(&log)?,
             });
             if self.catalogue.orbits.len() > known {
-                looked.entered.push(log);
+                judged.entered.push(log);
             }
-            self.count_settled(&looked.outcomes[looked.outcomes.len() - 1..])?;
+            self.count_settled(&judged.outcomes[judged.outcomes.len() - 1..])?;
         }
-        Ok(looked)
+        Ok(judged)
     }
 
-    /// Follows cells for so many drive periods and those of a log; motions that take long are stored one by one.
+    /// Follows cells for some drive periods, then records the log of each; motions that run in no lanes are stored one by one.
     fn log_cells(&self, cells: &[usize], periods: u64) -> Result<Vec<CellLog>, OrbitError> {
         if self.ensemble.runs_in_lanes() {
             return self.log_together(cells, periods);
@@ -256,7 +252,7 @@ impl BasinSurvey<'_> {
         Ok(parallel::try_map(cells, one)?.concat())
     }
 
-    /// Follows cells together for so many drive periods and those of a log.
+    /// Follows cells together for some drive periods, and then records the log of each.
     fn log_together(&self, cells: &[usize], periods: u64) -> Result<Vec<CellLog>, OrbitError> {
         let logged = 2 * self.options.longest + 1;
         let members = cells.iter().map(|cell| Member::new(0, self.states[*cell]));
@@ -271,7 +267,7 @@ impl BasinSurvey<'_> {
         Ok(seen.collect())
     }
 
-    /// What a motion with a log has come to; contraction balls are added about an orbit that it turns up.
+    /// What a motion has come to by its log; a new orbit to which it leads gets its contraction balls.
     fn judge_log(&mut self, log: &[Start]) -> Result<MemberStatus, OrbitError> {
         let known = self.catalogue.orbits.len();
         let outcome = self.catalogue.classify_log(log)?;
@@ -282,7 +278,7 @@ impl BasinSurvey<'_> {
     }
 }
 
-/// The earlier of two lost cells, and why.
+/// Of two lost cells the one with the smaller index.
 pub(super) fn earlier_lost(one: Option<LostCell>, other: Option<LostCell>) -> Option<LostCell> {
     one.into_iter().chain(other).min()
 }

@@ -20,20 +20,18 @@ use softstop::{CheckedScene, Machine, MotionError, Parameter, Scene, Start};
 
 pub use way::Way;
 
-/// Steps of a slow way to run up.
+/// Number of steps in which a slow way to run up changes its parameter.
 const RUN_UP_STEPS: usize = 256;
 /// Drive periods of each step of a slow way to run up.
 const STEP_PERIODS: u64 = 64;
-/// Steps of a ramp, at most.
-const MAX_RAMP_STEPS: f64 = (RUN_UP_STEPS as u64 * STEP_PERIODS) as f64;
 
-/// Settings of running up: which ways are tried, and what is asked of them.
+/// Settings of running up: which ways are tried, how fast a ramp is, and which force is allowed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunUpSettings {
     /// The ways that are tried.
     pub ways: Vec<Way>,
-    /// Change of the drive's frequency in rad/s from each drive period to the next, in steps of several periods
-    /// where these are more than 16,384; none, or one that is not positive, for a slow way.
+    /// Change of the drive's frequency in rad/s from each drive period to the next, in steps of several periods where these are
+    /// more than 16,384; none, or one that is not positive, for a slow way.
     pub ramp: Option<f64>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
@@ -42,7 +40,7 @@ pub struct RunUpSettings {
 }
 
 impl Default for RunUpSettings {
-    /// Slow ways by the drive's own amplitude, with any force.
+    /// Settings for running up slowly by all ways with the drive's own amplitude, with any force.
     fn default() -> Self {
         Self {
             ways: Way::BY_OWN_DRIVE.to_vec(),
@@ -59,13 +57,14 @@ impl RunUpSettings {
         self.with_peaks || self.most_force.is_some()
     }
 
-    /// Steps of the sweep of a parameter on a way to run up, and drive periods of each.
+    /// Number of steps in which a way to run up changes a parameter from `low` to `high`, and drive periods of each.
     fn sweep_steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
         let ramp = self.ramp.filter(|rate| *rate > 0.0);
         match ramp.filter(|_| parameter == Parameter::Frequency) {
             Some(rate) => {
                 let changes = (high - low) / rate;
-                let each = (changes / MAX_RAMP_STEPS).ceil().max(1.0);
+                let most_steps = (RUN_UP_STEPS as u64 * STEP_PERIODS) as f64;
+                let each = (changes / most_steps).ceil().max(1.0);
                 ((changes / each).ceil() as usize + 1, each as u64)
             }
             None => (RUN_UP_STEPS, STEP_PERIODS),
@@ -73,7 +72,7 @@ impl RunUpSettings {
     }
 }
 
-/// An attempt to run up by one way, and what came of it.
+/// An attempt to run up by one way, with the motion in which it ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Attempt {
@@ -105,7 +104,7 @@ pub struct RunUpPeaks {
 }
 
 impl RunUpPeaks {
-    /// Advances a motion on a way to run up by some drive periods and takes its peaks; the state after them.
+    /// Advances a motion on a way to run up by some drive periods, raises the peaks to its largest values, and returns its state.
     fn take_peaks(
         &mut self,
         scene: &CheckedScene,
@@ -120,19 +119,19 @@ impl RunUpPeaks {
     }
 }
 
-/// The attempts to run up by all ways that were tried.
+/// The attempts to run a machine up into a stable motion, by all ways that were tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunUp {
-    /// The attempts, in the order in which they were asked for; ways that a machine does not have, or
-    /// that cannot be computed, are left out.
+    /// The attempts, in the order in which they were asked for; ways that a machine does not have, or that cannot be computed,
+    /// are left out.
     pub ways: Vec<Attempt>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
 }
 
 impl RunUp {
-    /// Tries ways to run up into a stable motion; the drive is switched on at so many drive angles.
+    /// Tries ways to run up into the stable motion of an orbit; where the drive is switched on at once, at so many drive angles.
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
@@ -155,8 +154,8 @@ impl RunUp {
         })
     }
 
-    /// True if some way works, as [`RunUp::working_ways`] says: once one does, no other is begun. False if none does, and
-    /// if the monitor says stop.
+    /// True if some way works, as [`RunUp::working_ways`] says: once one does, no other is begun. False if none does, and if the
+    /// monitor says stop.
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if the motion of the orbit cannot be computed.
@@ -187,7 +186,7 @@ impl RunUp {
         all.filter(|attempt| self.is_gentle(attempt))
     }
 
-    /// True if the stop is pressed no harder in an attempt to run up than is allowed.
+    /// True if the force at the stop in an attempt to run up is no larger than allowed.
     pub fn is_gentle(&self, attempt: &Attempt) -> bool {
         let within = |most: f64| attempt.peaks.is_some_and(|it| it.stop_force <= most);
         self.most_force.is_none_or(within)
@@ -219,7 +218,7 @@ impl Display for RunUp {
     }
 }
 
-/// Tries one way to run up; none if the machine has no such way.
+/// Tries one way to run up; none if the machine has no such way, as a clearance that cannot be smaller.
 fn try_way(
     orbit: &Orbit,
     basin_test: &BasinTest,
@@ -234,7 +233,7 @@ fn try_way(
     }
 }
 
-/// The state before the drive runs: at the suspension's rest, or at the face of a stop that stands before it.
+/// The state before the drive is switched on: at the suspension's rest, or at the face of a stop that stands before it.
 fn rest_state(scene: &Scene) -> Start {
     let below = scene.below.as_ref();
     let lowest = below.map_or(f64::NEG_INFINITY, |below| -below.clearance);
@@ -278,7 +277,7 @@ fn try_switching_on(
     })
 }
 
-/// The middle of the longest row of true values on a circle, the first one of equals.
+/// The middle of the longest row of true values on a circle, as a share of the circle, the first of equals; none if none is true.
 fn middle_of_longest_row(circle: &[bool]) -> Option<f64> {
     let count = circle.len();
     let row = |first: usize| {

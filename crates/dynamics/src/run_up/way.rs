@@ -63,7 +63,8 @@ impl Way {
         }
     }
 
-    /// The slow change on a way to run up: parameter, first value in SI units, direction; none without such a way.
+    /// The slow change that a way to run up makes: its parameter, the value at which it begins in SI units, and its direction.
+    /// None if the way has none, or not with this scene.
     pub(super) fn slow_change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
         let w = scene.excitation.frequency;
         let amplitude = scene.excitation.amplitude;
@@ -72,28 +73,17 @@ impl Way {
             Self::SwitchedOn => return None,
             Self::FrequencyRaised => {
                 let slow = if own > 0.0 { own.min(w) } else { w };
-                (LOW_FREQUENCY * slow, Direction::Up)
+                (0.5 * slow, Direction::Up)
             }
-            Self::FrequencyLowered => (HIGH_FACTOR * own.max(w), Direction::Down),
-            Self::ClearanceOpened => (START_CLEARANCE * scene.clearance, Direction::Up),
-            Self::AmplitudeRaised => (START_AMPLITUDE * amplitude, Direction::Up),
+            Self::FrequencyLowered => (2.0 * own.max(w), Direction::Down),
+            Self::ClearanceOpened => (0.05 * scene.clearance, Direction::Up),
+            Self::AmplitudeRaised => (0.01 * amplitude, Direction::Up),
             Self::AmplitudeLowered => {
-                let grazing = GRAZING_FACTOR * scene.least_clearance() / free_amplitude(scene, w);
-                (amplitude * grazing.max(HIGH_FACTOR), Direction::Down)
+                let grazing = 1.5 * scene.least_clearance() / free_amplitude(scene, w);
+                (amplitude * grazing.max(2.0), Direction::Down)
             }
         };
         let is_possible = first > 0.0 && first.is_finite();
         is_possible.then_some((self.changed_parameter()?, first, direction))
     }
 }
-
-/// Frequency at which a rising one begins, in units of the lower one of the drive's and the mass's own.
-const LOW_FREQUENCY: f64 = 0.5;
-/// Frequency at which a falling one begins, in units of the higher one; least such factor of an amplitude.
-const HIGH_FACTOR: f64 = 2.0;
-/// Clearance at which an opening one begins, in units of that at work.
-const START_CLEARANCE: f64 = 0.05;
-/// Amplitude at which a rising one begins, in units of that at work.
-const START_AMPLITUDE: f64 = 0.01;
-/// Amplitude at which a falling one begins, in units of that of grazing.
-const GRAZING_FACTOR: f64 = 1.5;

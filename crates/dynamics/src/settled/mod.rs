@@ -28,7 +28,7 @@ use crate::orbit::recurrence::RECURRENCE_DISTANCE;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::LoweredMachine;
 
-/// How long motions are followed until they have settled, and how they are watched.
+/// Settings for following motions until they have settled: how long they run, and how they are watched then.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settling {
     /// Drive periods for which motions are followed, all together.
@@ -53,8 +53,8 @@ impl Default for Settling {
 }
 
 impl Settling {
-    /// Follows a motion of each scene from its start until it settles; an error where the scene, the start or the
-    /// motion cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
+    /// Follows a motion of each scene from its start until it settles, and returns what it has settled on; an error where scene,
+    /// start or motion cannot be computed. None if the monitor, which is not told how much is done, ends the work.
     pub fn follow_motions(
         &self,
         motions: &[(&Scene, Start)],
@@ -76,7 +76,7 @@ impl Settling {
         self.settle_members(machines, members, monitor)
     }
 
-    /// Follows motions of these machines until they settle, and returns what each has come to.
+    /// Follows motions of lowered machines until they settle, and returns what each has settled on.
     fn settle_members(
         &self,
         machines: Vec<LoweredMachine>,
@@ -118,8 +118,8 @@ impl Settling {
         settled.collect()
     }
 
-    /// The certainty of z = 1: share of so many starts, spread evenly over a region or else the box of the scene's
-    /// size, that settle on it. Nothing if the scene is invalid, or the monitor wants to stop.
+    /// The share of so many starts, spread evenly over a region or else over the box of the scene's size, whose motions settle on
+    /// z = 1: its certainty. None if the scene is invalid, or the monitor ends the work.
     pub fn single_impact_certainty(
         &self,
         scene: &Scene,

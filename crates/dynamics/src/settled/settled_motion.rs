@@ -10,11 +10,12 @@ use crate::tolerance::SAME;
 use nalgebra::Vector2;
 use softstop::{CheckedScene, Instant, MotionError, Scene, Start};
 
-/// Largest distance of an orbit from where the last change of a motion puts it, in units of that place's distance from the
-/// motion: so far off is what lies halfway from a stable orbit to the unstable one that it meets at a fold.
+/// Largest distance of an orbit from where the last change of a motion predicts it, in units of the distance of that place from
+/// the motion, with which the motion is taken to settle on the orbit. Farther off lies what is halfway from a stable orbit to the
+/// unstable one that it meets at a fold.
 const MAX_PREDICTION_ERROR: f64 = 1.0;
 
-/// What a motion that was followed has settled on.
+/// What a followed motion has settled on: its period, impacts and states in the last drive periods, in which it was watched.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SettledMotion {
@@ -37,7 +38,8 @@ pub struct SettledMotion {
 }
 
 impl SettledMotion {
-    /// What the record of a member, followed for so many drive periods in all, shows its motion to have settled on.
+    /// What a motion, followed for `followed` drive periods in all, has settled on by the record of its last periods, taken as
+    /// seen.
     pub(crate) fn of(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
         let states = &member.states;
         let found = find_settled_period(scene.excitation.frequency, states, tolerance)
@@ -45,8 +47,8 @@ impl SettledMotion {
         Self::of_record(member, found, followed)
     }
 
-    /// What the record of a member shows its motion to have settled on, if that is confirmed: its states return to rounding,
-    /// or Newton's method leads from the last one to a stable orbit, which then takes the place of what was seen.
+    /// What a motion has settled on by the record of its last periods, if that is confirmed: its states return to rounding, or
+    /// Newton's method leads from the last one to a stable orbit, which then takes the place of what was seen.
     pub(super) fn confirmed(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
         let seen = Self::of(scene, member, tolerance, followed);
         let states = &member.states;
@@ -62,8 +64,9 @@ impl SettledMotion {
         }
     }
 
-    /// The stable orbit with the impacts of a settled motion that Newton's method reaches from its end, if it is where the
-    /// last change of the state puts it: M (1 - M)^-1 times that change away, with the orbit's monodromy matrix M.
+    /// The stable orbit with the impacts of a settled motion that Newton's method finds from its last state, if the orbit lies
+    /// where the last change of the state predicts it: M (1 - M)^-1 times that change away, with the orbit's monodromy matrix M.
+    /// None otherwise.
     fn orbit_reached(&self, scene: &Scene, periods: u64) -> Option<Orbit> {
         let orbit = Orbit::find_periodic(scene, self.end.into(), periods).ok()?;
         let monodromy = &orbit.monodromy;
@@ -80,7 +83,7 @@ impl SettledMotion {
         (has_impacts && decays && (is_predicted || size(gap) <= SAME)).then_some(orbit)
     }
 
-    /// The settled motion on its orbit.
+    /// The settled motion with all values replaced by those of its orbit.
     fn on_orbit(&self, orbit: &Orbit) -> Result<Self, MotionError> {
         let mut states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
         states.rotate_left(1);
@@ -98,7 +101,8 @@ impl SettledMotion {
         })
     }
 
-    /// What the record of a member shows, of the last period if its motion returns after so many drive periods.
+    /// What the record of a member shows: its last `found` drive periods if the motion returns after these, else all recorded
+    /// ones.
     fn of_record(member: &Member, found: Option<usize>, followed: u64) -> Self {
         let Member {
             states, impacts, ..
@@ -175,8 +179,8 @@ impl SettledMotion {
         Ok(Some(MotionKind::from_regime(regime, order)))
     }
 
-    /// The kind of a settled motion: chaos if it does not return and small differences have grown more than a
-    /// hundredfold; and their growth then, ln of the tangent's norm per drive period.
+    /// The kind of a settled motion: chaos if it does not return and small differences have grown more than a hundredfold; and
+    /// their growth then, ln of the tangent's norm per drive period.
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
@@ -200,8 +204,8 @@ impl SettledMotion {
     }
 }
 
-/// The kind of a motion that does not return, chaos or unsettled, by the growth of small differences along a map from a
-/// state on: ln of the norm of the tangent without units, which is returned, too.
+/// The kind of a motion that does not return, chaos or unsettled, by the growth of small differences along a map from a state on:
+/// ln of the norm of the tangent without units, which is returned, too.
 ///
 /// # Errors
 /// [`MotionError`] if it cannot be computed.

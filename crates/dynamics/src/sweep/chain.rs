@@ -8,11 +8,11 @@ use crate::settled::SettledMotion;
 use crate::tolerance::SIMILAR;
 use softstop::{CheckedScene, Machine, MotionError, Start};
 
-/// Change of the largest before-impact velocity from one step of a sweep to the next, in units of the larger one, that
-/// is a jump if the steps before and after change it by less than a share of that.
+/// Shares of the largest before-impact velocity that tell a jump of a sweep: the velocity changes from one step to the next by at
+/// least the first one, and the changes before and after are below the second one of that change.
 const JUMP_SHARES: (f64, f64) = (0.1, 0.2);
 
-/// A sweep of one machine in one direction, with the steps that it has made.
+/// A sweep of one machine in one direction: a chain of steps, each of which starts where the one before has ended.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Chain {
@@ -26,7 +26,7 @@ pub struct Chain {
     pub error: Option<String>,
 }
 
-/// A jump of a sweep: a change of the settled motion from one step to the next.
+/// A jump in a sweep: the settled motion changes to another one from one step to the next.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Jump {
@@ -43,7 +43,7 @@ pub struct Jump {
 }
 
 impl Chain {
-    /// A sweep of a machine that has not begun.
+    /// A sweep of a machine that has made no step yet.
     pub fn new(machine: impl Into<Machine>, direction: Direction) -> Self {
         Self {
             machine: machine.into(),
@@ -62,7 +62,7 @@ impl Chain {
         steps
     }
 
-    /// The jumps of a sweep, in its own order: from a settled step to the next one, however many lie between.
+    /// The jumps of the sweep, in its own order: from one settled step to the next settled one, whatever lies between.
     pub fn find_jumps(&self) -> Vec<Jump> {
         let settled: Vec<&SweepStep> = self.steps.iter().filter(|step| step.is_settled()).collect();
         let jump = |pair: &[&SweepStep]| Jump {
@@ -78,7 +78,7 @@ impl Chain {
     }
 }
 
-/// True if the sweep jumps after a step: to another kind of motion, or to one hit much harder or less hard.
+/// True if the sweep jumps after the step `index`: to another kind of motion, or to one that is hit much harder or less hard.
 fn is_jump(steps: &[&SweepStep], index: usize) -> bool {
     let (before, after) = (steps[index], steps[index + 1]);
     if before.motion != after.motion {
@@ -96,7 +96,7 @@ fn is_jump(steps: &[&SweepStep], index: usize) -> bool {
             .is_none_or(|later| is_even(after, later))
 }
 
-/// One step of a sweep: the motion at one value of the parameter.
+/// A step of a sweep: the motion at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SweepStep {
@@ -119,7 +119,7 @@ pub struct SweepStep {
 }
 
 impl SweepStep {
-    /// The step of a sweep at a value, from what its motion was seen to settle on.
+    /// The step of a sweep at a value of the parameter, from what its motion has settled on.
     pub(super) fn new(
         value: f64,
         scene: &CheckedScene,
@@ -148,13 +148,13 @@ impl SweepStep {
         self.velocities.last().copied().unwrap_or(0.0)
     }
 
-    /// True if the motion of a step returns, or is chaotic.
+    /// True if the motion of the step repeats, or is chaotic.
     pub fn is_settled(&self) -> bool {
         self.motion != MotionKind::Unsettled
     }
 
-    /// True if the motions of two steps are of different kinds, or of one regime with hardest impacts that differ by more
-    /// than a share of the larger one.
+    /// True if the motions of two steps are of different kinds, or their hardest impacts differ by more than `share` of the
+    /// larger.
     pub(super) fn differs_from(&self, other: &Self, share: f64) -> bool {
         let (one, two) = (self.hardest_impact(), other.hardest_impact());
         let (low, high) = (one.min(two), one.max(two));
@@ -163,7 +163,7 @@ impl SweepStep {
     }
 }
 
-/// A range of the parameter in which the motions of the sweeps up and down differ.
+/// A range of the parameter in which the sweeps up and down settle on different motions: a hysteresis.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Coexistence {
@@ -177,7 +177,7 @@ pub struct Coexistence {
     pub down: MotionKind,
 }
 
-/// The steps of the sweeps up and down at the same values, in rising order.
+/// The steps of the sweeps up and down at the same values of the parameter, in rising order.
 fn pair_steps<'a>(up: &'a Chain, down: &'a Chain) -> Vec<(&'a SweepStep, &'a SweepStep)> {
     let others = down.rising_steps();
     let other = |value: f64| others.binary_search_by(|step| step.value.total_cmp(&value));
@@ -186,7 +186,7 @@ fn pair_steps<'a>(up: &'a Chain, down: &'a Chain) -> Vec<(&'a SweepStep, &'a Swe
         .collect()
 }
 
-/// The hysteresis of two sweeps: ranges in which a machine's settled motions on the way up and down differ.
+/// The ranges of the parameter in which the sweeps of a machine up and down settle on different motions.
 pub fn find_coexistences(up: &Chain, down: &Chain) -> Vec<Coexistence> {
     let mut zones: Vec<Coexistence> = Vec::new();
     let mut open = false;

@@ -37,7 +37,7 @@ pub use crate::direction::Direction;
 use crate::orbit::recurrence::RECURRENCE_DISTANCE;
 use softstop::{Parameter, Start};
 
-/// The plan of a sweep: which parameter, which values, for how long each.
+/// The plan of a sweep: which parameter takes which values, and for how long each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
     /// The parameter that is swept.
@@ -48,8 +48,8 @@ pub struct Plan {
     pub steps: usize,
     /// Drive periods for each value; at least 1.
     pub periods: u64,
-    /// Distance within which a state has returned, in units of the motion's size. Where each step is too
-    /// short to settle, it has to be larger than what a step changes.
+    /// Distance within which a state has returned, in units of the motion's size. Where each step is too short to settle, it has
+    /// to be larger than what a step changes.
     pub tolerance: f64,
     /// Whether the largest position of each step is asked for: it takes the safe engine.
     pub heights: bool,
@@ -57,7 +57,7 @@ pub struct Plan {
     pub start: Start,
 }
 
-/// Why a plan of a sweep is refused.
+/// Why a sweep cannot be made as planned.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -78,8 +78,8 @@ pub enum PlanError {
 }
 
 impl Plan {
-    /// Most sweeps that go together, as many as there are lanes at most. Lanes that go together round together, so the
-    /// groups may not depend on how many threads there are.
+    /// Most sweeps whose motions are advanced together, as many as there are lanes at most. Lanes that go together round
+    /// together, so the groups do not depend on how many threads there are.
     pub const MAX_CHAINS_TOGETHER: usize = 16;
 
     /// A plan of a sweep that starts from rest at the origin.
@@ -129,7 +129,7 @@ impl Plan {
         (self.range.1 - self.range.0) / (self.steps - 1) as f64 / self.periods as f64
     }
 
-    /// The last drive periods of a step, in which its motion is watched: half of them, 16 to 128 if it has them.
+    /// Number of last drive periods of a step in which its motion is watched: half of the step, but 16 to 128 if it has them.
     pub fn watched_periods(&self) -> u64 {
         (self.periods / 2).clamp(16.min(self.periods), 128)
     }

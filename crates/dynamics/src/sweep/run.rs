@@ -16,7 +16,7 @@ use softstop::internals::budget;
 use softstop::{Parameter, Scene, SceneError, Start};
 use softstop_lanes::LoweredMachine;
 
-/// The steps that a sweep makes in one stored piece of work.
+/// The steps that sweeps make in one stored piece of work.
 #[derive(Serialize, Deserialize)]
 struct ChainProgress {
     steps: Vec<SweepStep>,
@@ -24,13 +24,12 @@ struct ChainProgress {
 }
 
 impl Plan {
-    /// Runs all sweeps to their ends, from wherever they are, unless the monitor says stop: it is told of the steps
-    /// that are done of all. True if all came to their ends.
+    /// Runs sweeps from where they are to their ends; false if the monitor, which is told of all steps done, ends the work.
     pub fn run_chains(&self, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
         self.run_chains_for(Duration::MAX, chains, monitor)
     }
 
-    /// Runs all sweeps for about so long, to the ends of the steps that are under way then.
+    /// Runs sweeps for about this computing time and ends the steps under way then; false if the monitor ends the work.
     fn run_chains_for(&self, time: Duration, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
         let begin = Instant::now();
         let all = (self.steps * chains.len()) as u64;
@@ -60,7 +59,7 @@ impl Plan {
         chains.iter().all(|chain| self.is_complete(chain))
     }
 
-    /// The key of some sweeps under this plan: what they come to follows from it.
+    /// The key under which pieces of these sweeps are stored: all from which their steps follow.
     pub fn plan_identity(&self, chains: &[Chain]) -> impl Serialize + use<> {
         let chains = chains.iter();
         let chains = chains.map(
@@ -80,7 +79,7 @@ impl Plan {
         (self.parameter.name(), plan, self.start, chains)
     }
 
-    /// Runs all sweeps piece by piece, as [`Plan::run_chains`] does, with pieces recalled and stored.
+    /// Runs sweeps as [`Plan::run_chains`] does, piece by piece; stored pieces are recalled and new ones stored.
     pub fn run_chains_with_memory(
         &self,
         chains: &mut [Chain],
@@ -123,7 +122,8 @@ impl Plan {
         chain.steps.len() >= self.steps || chain.error.is_some()
     }
 
-    /// Makes the next step of those sweeps of a group that are the farthest behind; how many, none if stopped.
+    /// Makes the next step of those sweeps of a group that have made fewest, and returns how many; none if the monitor ends the
+    /// work.
     fn step_chains(&self, group: &mut [Chain], monitor: Monitor<'_>) -> Option<u64> {
         let afloat = group.iter().filter(|chain| !self.is_complete(chain));
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
@@ -173,7 +173,7 @@ impl Plan {
         Some(count.max(1))
     }
 
-    /// The lowered machine at the next step of a sweep.
+    /// The machine at the next step of a sweep, lowered for the lanes.
     fn lower_next_step(&self, chain: &Chain) -> Result<LoweredMachine, SceneError> {
         let mut machine = chain.machine.clone();
         let value = self.value_at(chain.steps.len(), chain.direction);
@@ -182,7 +182,7 @@ impl Plan {
     }
 }
 
-/// The state of rest on the rigid stop beyond which a state of a scene lies, and true; otherwise the state itself.
+/// A state of a scene, and false; or where it lies beyond a rigid stop, the state of rest on that stop, and true.
 fn put_within_walls(scene: &Scene, state: Start) -> (Start, bool) {
     let (low, high) = scene.reach();
     match state.position.max(low).min(high) {

@@ -5,7 +5,7 @@ use crate::continuation::{
 };
 use crate::orbit::OrbitError;
 
-/// One end of a zone or of a range of frequencies with a stable z = 1 motion.
+/// One end of a zone or of a stable range of z = 1: its frequency, the motion there, and why it ends.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ZoneEnd {
@@ -20,7 +20,7 @@ pub struct ZoneEnd {
 }
 
 impl ZoneEnd {
-    /// The end of a zone at a point of a branch.
+    /// The end of a zone at a point of a branch, with the loss that ends it and the special point that it is, if any.
     pub(super) fn at_point(point: &BranchPoint, loss: Loss, special: Option<SpecialKind>) -> Self {
         Self {
             frequency: point.parameter,
@@ -30,18 +30,19 @@ impl ZoneEnd {
         }
     }
 
-    /// The end of a zone at a special point of a branch.
+    /// The end of a zone at a special point of a branch, which tells the loss.
     pub(super) fn at_special(point: &BranchPoint, kind: SpecialKind) -> Self {
         Self::at_point(point, Loss::at_special(&kind), Some(kind))
     }
 
-    /// True if a test of the monodromy matrix vanishes at the end.
+    /// True if a test function of the monodromy matrix vanishes at the end: a fold, flip or Neimark-Sacker bifurcation.
     pub fn is_critical(&self, test: TestFunction) -> bool {
         self.special == Some(SpecialKind::Critical(test))
     }
 }
 
-/// The first of some points of a branch, in this order, at which a stable z = 1 motion ends.
+/// The first of some points of a branch at which a stable z = 1 motion ends: at a bifurcation, or where an impact dies or comes
+/// up; none if it ends at none of them.
 pub(super) fn first_end<'a>(
     branch: &'a Branch,
     mut points: impl Iterator<Item = &'a BranchPoint>,
@@ -62,7 +63,7 @@ pub(super) fn first_end<'a>(
     })
 }
 
-/// Why a range of stable z = 1 motions, or the hysteresis zone, ends.
+/// Why a stable z = 1 motion is lost at the end of a zone or of a stable range.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Loss {
@@ -95,7 +96,7 @@ pub enum Loss {
 }
 
 impl Loss {
-    /// The loss of z = 1 at a special point.
+    /// The loss of a z = 1 motion at a special point of a branch.
     pub(super) fn at_special(kind: &SpecialKind) -> Self {
         match kind {
             SpecialKind::Critical(test) => Self::from(*test),
@@ -108,7 +109,7 @@ impl Loss {
         }
     }
 
-    /// The loss of z = 1 where a branch ends otherwise; at a grazing its special point says which.
+    /// The loss of a z = 1 motion where its branch is followed no farther; at a grazing the special point there tells it.
     pub(super) fn of_branch_end(end: &BranchEnd) -> Self {
         match end {
             BranchEnd::Points => Self::Budget,

@@ -4,16 +4,14 @@ use super::hysteresis_zone::{UpperEnd, zones_of};
 use super::single_impact_zone::single_impact;
 use super::stable_range::StableRange;
 use super::stable_ranges::find_stable_ranges;
-use super::{FrequencyFamily, ZoneError};
-use super::{Zone, ZoneKind};
-use crate::continuation::Continuation;
+use super::{Zone, ZoneError, ZoneKind};
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{self, Orbit, OrbitError};
 use softstop::Scene;
 
 /// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all
-/// [`stable_ranges`](super::stable_ranges()) that hold the frequency of the drive, and of those that a search at that
-/// frequency alone finds ([`orbit::find`]).
+/// [`stable_ranges`](super::stable_ranges()) that hold the frequency of the drive, and of those that a search at that frequency
+/// alone finds ([`orbit::find`]).
 ///
 /// # Errors
 /// [`OrbitError::NotFound`] if there is none; [`OrbitError::Motion`] if the scene is invalid.
@@ -21,7 +19,7 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     find_with_monitor(scene, &unmonitored)
 }
 
-/// The motion that [`find`] finds, as long as a monitor, which sees no progress, lets the search go on.
+/// The stable z = 1 motion that [`find`] finds, as long as a monitor, which is not told how much is done, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
@@ -30,7 +28,7 @@ pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, O
     find_among(scene, &stable_ranges, monitor)
 }
 
-/// The motion that [`find`] finds, with the stable ranges of the scene, at whatever frequency, known already.
+/// The stable z = 1 motion that [`find`] finds, where the stable ranges of the scene are known already.
 ///
 /// # Errors
 /// As [`find_with_monitor`].
@@ -40,9 +38,7 @@ pub fn find_among(
     monitor: Monitor<'_>,
 ) -> Result<Orbit, OrbitError> {
     let here = orbit::find_with_monitor(scene, monitor);
-    let on = stable_ranges
-        .iter()
-        .filter_map(|one| on_stable_range(scene, one));
+    let on = stable_ranges.iter().filter_map(|one| one.orbit_at(scene));
     match (here, on.max_by(Orbit::compare_velocity)) {
         (Ok(here), Some(other)) if other.is_harder(&here) => Ok(other),
         (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
@@ -50,8 +46,8 @@ pub fn find_among(
     }
 }
 
-/// The zones of a kind of some scenes; the frequency of their drives plays no part. Of [`ZoneKind::Hysteresis`] the grazing of
-/// a surface beyond the clearance, as of a rigid stop behind the other, may end one above as well as a fold.
+/// The zones of one kind of some scenes; the frequency of their drives plays no part. A zone of [`ZoneKind::Hysteresis`] may also
+/// end above in the grazing of a surface beyond the clearance, as of a rigid stop behind the other, and not only in a fold.
 ///
 /// # Errors
 /// Each as [`hysteresis_batch`](super::hysteresis_batch) or [`single_impact`].
@@ -64,15 +60,4 @@ pub fn find_zones(
         ZoneKind::Hysteresis => zones_of(scenes, UpperEnd::FoldOrGrazing, monitor),
         ZoneKind::SingleImpact { between } => single_impact(scenes, between, monitor),
     }
-}
-
-/// The z = 1 motion of a stable range at the frequency of the scene's drive.
-fn on_stable_range(scene: &Scene, stable_range: &StableRange) -> Option<Orbit> {
-    let scene = scene.check().ok()?;
-    let point = stable_range
-        .point_at(&scene, scene.excitation.frequency)
-        .ok()??;
-    let family = FrequencyFamily(&scene);
-    let orbit = Continuation::new(&family, 1).orbit_at(&point).ok()?;
-    (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
 }

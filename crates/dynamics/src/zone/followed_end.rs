@@ -7,11 +7,12 @@ use crate::continuation::{
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
-/// Points after which a branch is given up.
+/// Most points of a branch that is followed for the end of a zone; after these it is given up.
 pub const LONGEST_BRANCH: usize = 2000;
 
-/// Finds where stable motions end that were followed from the first of these points on; the last point is then there.
-/// Where that shows in none of the tests, as at a grazing, every special point of the branch is looked at.
+/// Finds where the stable motions of a branch end that was followed in `direction` from the first of `points` on: cuts the points
+/// there and appends the end. Where no test function tells it, as at a grazing, the branch is followed again with all special
+/// points.
 ///
 /// # Errors
 /// [`OrbitError`] if the branch cannot be followed.
@@ -34,7 +35,7 @@ pub fn find_end(
     follow_to_end(continuation, points, direction, range)
 }
 
-/// The end of stable motions between a point before it and one beyond: at a test's zero, or the range's bound.
+/// The end of stable motions between a stable point and one `beyond`: at the zero of a test function, or at the range's bound.
 fn end_between(
     continuation: &Continuation<'_>,
     before: &BranchPoint,
@@ -59,7 +60,7 @@ fn end_between(
     Ok(ZoneEnd::at_point(&point, Loss::Range, None))
 }
 
-/// A branch that was followed from a point of stable motions.
+/// A branch that was followed anew, with its special points, from one of the stable points of another.
 struct Followed {
     /// Index of that point.
     from: usize,
@@ -68,13 +69,14 @@ struct Followed {
     named_end: Option<ZoneEnd>,
 }
 
-/// The points of a branch but those at a value of the parameter, that of its start.
-fn further(branch: &Branch, start: f64) -> impl Iterator<Item = &BranchPoint> + Clone {
+/// The points of a branch without its start, which has this value of the parameter.
+fn points_beyond_start(branch: &Branch, start: f64) -> impl Iterator<Item = &BranchPoint> + Clone {
     let points = branch.points.iter();
     points.filter(move |point| point.parameter != start)
 }
 
-/// Follows stable motions to their end by every special point, from the last point on, or from the first.
+/// Follows stable motions with all special points to their end, from the last of `points` on, or where that fails from the first:
+/// replaces the points after it by those of the branch, up to the end.
 pub(super) fn follow_to_end(
     continuation: &Continuation<'_>,
     points: &mut Vec<BranchPoint>,
@@ -100,7 +102,7 @@ pub(super) fn follow_to_end(
             }
             Followed {
                 from,
-                named_end: first_end(&branch, further(&branch, start.parameter)),
+                named_end: first_end(&branch, points_beyond_start(&branch, start.parameter)),
                 branch,
             }
         })
@@ -119,7 +121,7 @@ pub(super) fn follow_to_end(
         named_end,
     } = followed;
     points.truncate(from + 1);
-    let further = further(&branch, points[from].parameter);
+    let further = points_beyond_start(&branch, points[from].parameter);
     if let Some(end) = named_end {
         let until = further.take_while(|it| it.parameter != end.frequency);
         points.extend(until.chain([&end.point]).cloned());

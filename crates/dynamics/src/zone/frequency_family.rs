@@ -4,7 +4,7 @@ use crate::continuation::Family;
 use softstop::internals::Scales;
 use softstop::{CheckedScene, MotionError};
 
-/// The family of one scene at all frequencies of its drive.
+/// The one-parameter family of scenes that continuation follows for zones: one scene at all frequencies of its drive.
 #[doc(hidden)]
 #[derive(Debug)]
 pub struct FrequencyFamily<'a>(pub &'a CheckedScene);

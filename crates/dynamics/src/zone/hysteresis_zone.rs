@@ -10,8 +10,9 @@ use super::end::{Loss, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
 use super::stable_range::StableRange;
 use super::stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
-use super::{BranchEnd, FrequencyFamily, ZoneError, grazing_frequencies, refuse_below};
-use super::{Zone, ZoneKind};
+use super::{
+    BranchEnd, FrequencyFamily, Zone, ZoneError, ZoneKind, grazing_frequencies, refuse_below,
+};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, TestFunction};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_known_orbits};
@@ -19,15 +20,10 @@ use crate::parallel;
 use crate::tolerance::TEST_ROUNDING;
 use softstop::Scene;
 
-/// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends in grazing.
-const MIN_VELOCITY_SHARE: f64 = 0.2;
-/// 1 - tr + det below which an unstable branch is left: its multiplier grows so far only before grazing.
-const MIN_FOLD_TEST: f64 = -4.0;
-
-/// Machines whose hysteresis zones are found together.
+/// Number of machines whose hysteresis zones are found together.
 const MACHINES_TOGETHER: usize = 8;
 
-/// The hysteresis zone of a scene with any stop; the frequency of its drive plays no part.
+/// The hysteresis zone of a scene, from the grazing frequency g0 to the fold of z = 1; the frequency of its drive plays no part.
 ///
 /// # Errors
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
@@ -35,7 +31,8 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     hysteresis_with_monitor(scene, &unmonitored)
 }
 
-/// The hysteresis zone of a scene, as long as a monitor, which is not told how much is done, lets it go on.
+/// The hysteresis zone of a scene as [`hysteresis`] finds it, as long as a monitor, which is not told how much is done, lets the
+/// search go on.
 ///
 /// # Errors
 /// As [`hysteresis`]; [`OrbitError::Stopped`].
@@ -59,7 +56,7 @@ pub fn hysteresis_and_stable_ranges(
     (zone_with_singles(scene, singles, monitor), stable_ranges)
 }
 
-/// The hysteresis zone of a scene, with its z = 1 orbits at g0 searched unless they are known.
+/// The hysteresis zone of a scene; `singles`: the z = 1 orbits at its grazing frequency g0, if they are known.
 fn zone_with_singles(
     scene: &Scene,
     singles: Option<Vec<Orbit>>,
@@ -70,7 +67,7 @@ fn zone_with_singles(
     zone_from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
 }
 
-/// What may end a hysteresis zone above.
+/// What may end a hysteresis zone at its upper frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum UpperEnd {
     /// A fold.
@@ -79,8 +76,8 @@ pub(super) enum UpperEnd {
     FoldOrGrazing,
 }
 
-/// The hysteresis zones of many machines at once, in a fraction of the work: the z = 1 motion at g0 is the hardest of
-/// those that motions come back near to, and where there is none of them, as in [`hysteresis`].
+/// The hysteresis zones of many machines at once, in a fraction of the work: the z = 1 motion at g0 is taken for the hardest of
+/// those that simulated motions come back near to, and is searched as in [`hysteresis`] only where there is none.
 ///
 /// # Errors
 /// Each as [`hysteresis_with_monitor`].
@@ -88,7 +85,7 @@ pub fn hysteresis_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<Zo
     zones_of(scenes, UpperEnd::Fold, monitor)
 }
 
-/// The zones of [`hysteresis_batch`], or those that something else may end, too.
+/// The hysteresis zones of many machines as [`hysteresis_batch`] finds them, with the upper ends that are allowed.
 pub(super) fn zones_of(
     scenes: &[Scene],
     upper: UpperEnd,
@@ -99,7 +96,7 @@ pub(super) fn zones_of(
     zones.into_iter().flatten().collect()
 }
 
-/// The hysteresis zones of a few machines, whose motions at g0 are found together.
+/// The hysteresis zones of a few machines, whose z = 1 motions at g0 are searched in one batch.
 fn zones_together(
     scenes: &[Scene],
     upper: UpperEnd,
@@ -119,7 +116,7 @@ fn zones_together(
     zones.collect()
 }
 
-/// The hysteresis zone from the z = 1 motion at g0.
+/// The hysteresis zone of a scene from the z = 1 motion `start` at the grazing frequency g0 upward.
 fn zone_from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
@@ -160,8 +157,8 @@ fn zone_from_start(
     })
 }
 
-/// Follows the branch from a z = 1 motion at the lower of two frequencies upward, through all its folds: its points, and the
-/// fold at the highest frequency.
+/// Follows the branch of a z = 1 motion from the lower of two frequencies upward, through all its folds, until it leaves the
+/// range, doubles its period, or ends in grazing: its points, and the fold at the highest frequency, if it has one.
 pub(super) fn follow_upward(
     continuation: &Continuation<'_>,
     start: &Orbit,
@@ -171,11 +168,10 @@ pub(super) fn follow_upward(
     let mut branch =
         continuation.follow_points(start, lowest, Direction::Up, LONGEST_BRANCH, |point| {
             let flipped = !point.is_stable() && point.fold_test() > 0.0;
-            let weak = point.before_impact_velocity()
-                < MIN_VELOCITY_SHARE * start.before_impact_velocity();
+            let weak = point.before_impact_velocity() < 0.2 * start.before_impact_velocity();
             let outside = point.parameter < lowest || point.parameter > highest;
-            let ends_in_grazing =
-                point.fold_test() < MIN_FOLD_TEST || (weak && point.fold_test() < 0.0);
+            // An unstable branch ends in grazing: its impacts become weak, and only there its multiplier grows so far.
+            let ends_in_grazing = point.fold_test() < -4.0 || (weak && point.fold_test() < 0.0);
             stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
         })?;
     OrbitError::ask_monitor(monitor)?;
@@ -193,7 +189,7 @@ fn ends_in_grazing(end: &ZoneEnd) -> bool {
     matches!(end.special, Some(SpecialKind::Grazing(_)))
 }
 
-/// Adds the folds to a branch, between neighbours where 1 - tr + det passes zero, but for border collisions, and returns them.
+/// Locates the folds of a branch between points where 1 - tr + det passes zero, but for border collisions, and inserts them.
 fn insert_folds(
     continuation: &Continuation<'_>,
     branch: &mut Vec<BranchPoint>,
@@ -214,7 +210,7 @@ fn insert_folds(
     folds
 }
 
-/// The error of a branch from a frequency on that has no fold.
+/// The error of a hysteresis zone whose branch, followed from a frequency on, has no fold.
 fn no_fold_error(from: f64, branch: &[BranchPoint]) -> ZoneError {
     let last = branch.last().map_or(f64::NAN, |point| point.parameter);
     let unstable = branch.iter().find(|point| !point.is_stable());

@@ -12,7 +12,7 @@ pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
     own_free_amplitude(&scene.at_frequency(frequency))
 }
 
-/// Amplitude of the impact-less motion at the frequency of a scene's own drive.
+/// Amplitude in m of the impact-less motion at the frequency of a scene's own drive.
 fn own_free_amplitude(scene: &Scene) -> f64 {
     let frequency = scene.excitation.frequency;
     let spring = scene.stiffness - scene.mass * frequency * frequency;
@@ -32,12 +32,12 @@ fn largest_free_amplitude(scene: &Scene) -> f64 {
 
 /// Frequencies in rad/s at which the impact-less motion grazes the stop: (below resonance, above).
 ///
-/// Its amplitude F0 / |k1 - m w^2 + i b1 w| equals the clearance r where
-/// m w^2 = k1 - b1^2 / (2 m) +- sqrt((F0 / r)^2 - b1^2 (k1 / m - b1^2 / (2 m)^2)).
+/// Its amplitude F0 / |k1 - m w^2 + i b1 w| equals the clearance r where m w^2 = k1 - b1^2 / (2 m) +- sqrt((F0 / r)^2 - b1^2 (k1
+/// / m - b1^2 / (2 m)^2)).
 ///
 /// Where parameters follow the frequency by an expression, these are the lowest such frequency above which the stop is met, and
-/// the highest below which it is. They are looked for at 4,096 frequencies from a hundredth of the slower to a hundred times
-/// the faster one of drive and suspension, and at the peaks between these.
+/// the highest below which it is. They are looked for at 4,096 frequencies from a hundredth of the slower to a hundred times the
+/// faster one of drive and suspension, and at the peaks between these.
 ///
 /// # Errors
 /// [`ZoneError::StopBelow`], [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
@@ -65,42 +65,40 @@ pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneErro
     Ok(((below > 0.0).then(|| below.sqrt()), above.sqrt()))
 }
 
-/// Factor by which grazings are searched beyond the frequencies of drive and suspension.
-const SEARCH_FACTOR: f64 = 100.0;
-/// Frequencies at which grazings are searched, evenly spread over their logarithm.
+/// Number of frequencies, evenly spread over their logarithm, at which grazings are searched.
 const SEARCH_STEPS: usize = 4096;
 
-/// Searches the [`grazing_frequencies`] where parameters follow the frequency.
+/// Searches the [`grazing_frequencies`] of a scene whose parameters follow the drive's frequency by expressions.
 fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     let own = (scene.stiffness / scene.mass).sqrt();
     let drive = scene.excitation.frequency;
-    let slowest = if own > 0.0 { drive.min(own) } else { drive } / SEARCH_FACTOR;
-    let step = (drive.max(own) * SEARCH_FACTOR / slowest).ln() / SEARCH_STEPS as f64;
-    let at = |look: usize| slowest * (step * look as f64).exp();
+    let slowest = if own > 0.0 { drive.min(own) } else { drive } / 100.0;
+    let step = (drive.max(own) * 100.0 / slowest).ln() / SEARCH_STEPS as f64;
+    let at = |index: usize| slowest * (step * index as f64).exp();
     // Between -1 and 1, and of the sign of the amplitude's excess over the clearance.
     let excess = |w: f64| {
         let scene = scene.at_frequency(w);
         let (amplitude, clearance) = (own_free_amplitude(&scene), scene.clearance);
         (amplitude - clearance) / (amplitude + clearance.abs())
     };
-    let all: Vec<f64> = (0..=SEARCH_STEPS).map(|look| excess(at(look))).collect();
-    let peaks = (1..SEARCH_STEPS).filter_map(|look| {
-        let sign = -all[look].signum();
-        let heights = [look - 1, look, look + 1].map(|look| sign * all[look]);
+    let all: Vec<f64> = (0..=SEARCH_STEPS).map(|index| excess(at(index))).collect();
+    let peaks = (1..SEARCH_STEPS).filter_map(|index| {
+        let sign = -all[index].signum();
+        let heights = [index - 1, index, index + 1].map(|index| sign * all[index]);
         let [before, height, after] = heights;
         // Not where it is constant, as 1 without clearance.
         if !(height >= before.max(after) && height > before.min(after)) {
             return None;
         }
-        let (low, high) = (at(look - 1), at(look + 1));
+        let (low, high) = (at(index - 1), at(index + 1));
         let (w, value) = highest_point(low, high, ROUNDING * high, |w| sign * excess(w));
         Some((w, sign * value))
     });
-    let looks = all
+    let samples = all
         .iter()
         .enumerate()
-        .map(|(look, excess)| (at(look), *excess));
-    let mut seen: Vec<(f64, f64)> = looks.chain(peaks).collect();
+        .map(|(index, excess)| (at(index), *excess));
+    let mut seen: Vec<(f64, f64)> = samples.chain(peaks).collect();
     seen.sort_by(|one, other| one.0.total_cmp(&other.0));
     let meets = |place: &(f64, f64)| place.1 >= 0.0;
     let mut pairs = seen.windows(2);

@@ -8,12 +8,12 @@ use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 use softstop::{Scene, Start};
 
-/// Points after which a branch is given up that does not lose its stability.
+/// Most points of a branch that is followed for a loss of stability; after these it is given up.
 const MAX_LOSS_POINTS: usize = 400;
-/// Factor of the orbit's own value of the parameter up to which a loss of stability is looked for.
+/// Largest factor, up or down from the orbit's own value of the parameter, within which a loss of stability is searched.
 const MAX_LOSS_FACTOR: f64 = 4.0;
 
-/// The first orbit, up or down from a stable z = 1 orbit, at which a test passes zero: s_SN by
+/// The first orbit, up or down in frequency from a stable z = 1 orbit, at which a test function passes zero: s_SN by
 /// [`TestFunction::Fold`], s_PD by [`TestFunction::Flip`]. None if stability is lost otherwise, or not at all.
 ///
 /// # Errors
@@ -32,9 +32,9 @@ pub fn loss_of_stability(
     Ok(found.filter(|point| !test.jumps_at(&point.monodromy)))
 }
 
-/// Finds where stability is lost along the parameter of any family, of which the orbit has the value `from`, by
-/// whatever it is, or where the branch ends: where the test passes zero, or else the last value of the parameter up to
-/// which the motion was followed; none if it stays stable as far as is looked.
+/// Finds the value of a family's parameter at which a stable orbit, which has the value `from`, loses its stability: where the
+/// test function passes zero, or else the last value up to which the orbit could be followed. None if it stays stable within the
+/// range that is searched.
 ///
 /// # Errors
 /// As [`loss_of_stability`].
@@ -54,12 +54,12 @@ pub fn find_end_along(
     Ok(last.map(|point| point.parameter))
 }
 
-/// True if a point is within that factor of the orbit's own value.
+/// True if the parameter at a point lies within [`MAX_LOSS_FACTOR`] of the orbit's own value.
 fn is_in_reach(point: &BranchPoint, from: f64) -> bool {
     (1.0 / MAX_LOSS_FACTOR..=MAX_LOSS_FACTOR).contains(&(point.parameter / from))
 }
 
-/// Follows a branch as long as it is stable.
+/// Follows the branch of an orbit as long as it is stable, to the first unstable point.
 fn follow_stable(
     continuation: &Continuation<'_>,
     from: f64,
@@ -71,7 +71,7 @@ fn follow_stable(
     })
 }
 
-/// Locates where a test passes zero, or jumps over it, at the end of a branch.
+/// Locates where a test function passes zero, or jumps over it, between the last two points of a branch; none if it does not.
 fn locate_loss(
     continuation: &Continuation<'_>,
     branch: &[BranchPoint],
@@ -86,7 +86,7 @@ fn locate_loss(
     }
 }
 
-/// Frequencies in rad/s that bound z = 1 of a machine: grazing g0, flip s_PD, fold s_SN.
+/// Frequencies in rad/s that bound the z = 1 motion of a machine: grazing g0, flip s_PD, fold s_SN.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StabilityBounds {
@@ -99,7 +99,7 @@ pub struct StabilityBounds {
 }
 
 impl StabilityBounds {
-    /// The bounds of a scene; those of its z = 1 motion only with a state near it.
+    /// The frequencies that bound the z = 1 motion of a scene; flip and fold only if a state near that motion is given.
     ///
     /// # Errors
     /// [`OrbitError`] if the branch cannot be begun.

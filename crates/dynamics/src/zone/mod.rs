@@ -10,10 +10,10 @@ mod frequency_family;
 mod hysteresis_zone;
 mod impactless_motion;
 mod loss_of_stability;
-mod own_ranges;
 mod single_impact_zone;
 mod stable_range;
 mod stable_ranges;
+mod zone_ranges;
 
 pub use end::{Loss, ZoneEnd};
 pub use error::{BranchEnd, StatedFrequency, ZoneError};
@@ -32,21 +32,20 @@ use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};
 use softstop::{CheckedScene, Scene};
 
-/// The kind of a zone: which motions it holds.
+/// The kind of a zone: a hysteresis zone, or all stable z = 1 motions on one branch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ZoneKind {
     /// Those that coexist with the motion without impacts: from g0 to the fold s_SN ([`hysteresis`](hysteresis())).
     #[default]
     Hysteresis,
-    /// All stable ones on the branch of the hardest one between two frequencies in rad/s
-    /// ([`single_impact`](single_impact())).
+    /// All stable ones on the branch of the hardest one between two frequencies in rad/s ([`single_impact`](single_impact())).
     SingleImpact {
         /// Lowest and highest frequency at which the motion is looked for.
         between: (f64, f64),
     },
 }
 
-/// A range of frequencies with a stable z = 1 motion of one machine, and the branch of that motion.
+/// A range of frequencies in which a machine has a stable z = 1 motion, and the branch of that motion.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Zone {
@@ -58,8 +57,8 @@ pub struct Zone {
     pub scene: CheckedScene,
     /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the stop.
     pub frequency_g0_below: Option<f64>,
-    /// Grazing frequency g0 in rad/s, above resonance: above it the motion without impacts does not reach the clearance.
-    /// 0 if it never does, infinite without a clearance.
+    /// Grazing frequency g0 in rad/s, above resonance: above it the motion without impacts does not reach the clearance. 0 if it
+    /// never does, infinite without a clearance.
     pub frequency_g0: f64,
     /// The lower end, s = 0: of a hysteresis zone g0.
     pub low: ZoneEnd,
@@ -80,27 +79,27 @@ impl Zone {
         self.is_hysteresis() && self.low.loss == Loss::FreeGrazing
     }
 
-    /// The machine at a place s of the zone.
+    /// The scene at a place s of the zone, with the drive's frequency there.
     pub fn scene_at(&self, share: f64) -> Scene {
         self.scene.at_frequency(self.frequency_at(share))
     }
 
-    /// The frequency in rad/s at a place s of the zone.
+    /// The drive frequency in rad/s at a place s of the zone: 0 at its lower end, 1 at its upper one.
     pub fn frequency_at(&self, share: f64) -> f64 {
         self.low.frequency + share * self.frequency_width()
     }
 
-    /// The place s of a frequency in rad/s in the zone.
+    /// The place s in the zone of a drive frequency in rad/s.
     pub fn place_of(&self, frequency: f64) -> f64 {
         (frequency - self.low.frequency) / self.frequency_width()
     }
 
-    /// Width of the zone, from end to end in rad/s.
+    /// Width of the zone in rad/s, from end to end.
     pub fn frequency_width(&self) -> f64 {
         self.high.frequency - self.low.frequency
     }
 
-    /// The z = 1 orbit at a place s of the zone, as [`Zone::point_at`] has it.
+    /// The z = 1 orbit at a place s of the zone: that of [`Zone::point_at`] with its impacts and times.
     ///
     /// # Errors
     /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
@@ -108,7 +107,7 @@ impl Zone {
         self.orbit_of(&self.point_at(share)?)
     }
 
-    /// The whole orbit at a point of the zone's branch.
+    /// The orbit at a point of the zone's branch, computed with its impacts and times.
     ///
     /// # Errors
     /// [`ZoneError::Orbit`] if the orbit is lost.
@@ -151,7 +150,7 @@ impl Zone {
     }
 }
 
-/// Refuses a machine with a stop below: zones are computed from the free motion between impacts on one stop.
+/// Refuses a scene with a stop below the mass: zones start from the grazing of the impact-less motion at one stop.
 fn refuse_below(scene: &Scene) -> Result<(), ZoneError> {
     match scene.below {
         None => Ok(()),

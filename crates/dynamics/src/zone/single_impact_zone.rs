@@ -3,8 +3,7 @@
 use super::followed_end::{LONGEST_BRANCH, find_end};
 use super::hysteresis_zone::follow_upward;
 use super::stable_ranges::FOLLOWED_RANGE;
-use super::{FrequencyFamily, ZoneError, grazing_frequencies, refuse_below};
-use super::{Zone, ZoneKind};
+use super::{FrequencyFamily, Zone, ZoneError, ZoneKind, grazing_frequencies, refuse_below};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, harder_single_impact_orbit};
@@ -12,12 +11,12 @@ use crate::parallel;
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene};
 
-/// Frequencies beside g0 at which single-impact motions are looked for.
+/// Number of frequencies besides g0 at which single-impact motions are searched to begin a zone with.
 const START_FREQUENCIES: usize = 6;
 
-/// The single-impact zones, ranges of stable z = 1, of some scenes; the frequency of their drives plays no part. Each
-/// reaches both ways from the hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until
-/// the motion loses its stability or another impact comes up: above, over a fold to the fold at the highest frequency.
+/// The single-impact zones of some scenes: ranges of stable z = 1; the frequency of their drives plays no part. Each reaches both
+/// ways from the hardest z = 1 motion that is found at g0 and at some frequencies `between` two, in rad/s, until the motion loses
+/// its stability or another impact comes up: above, over a fold to the fold at the highest frequency.
 ///
 /// # Errors
 /// Each a [`ZoneError`]: [`ZoneError::NoMotion`] if there is no such motion at these frequencies.
@@ -26,11 +25,15 @@ pub fn single_impact(
     between: (f64, f64),
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    parallel::map(scenes, |scene| of_scene(scene, between, monitor))
+    parallel::map(scenes, |scene| zone_of_scene(scene, between, monitor))
 }
 
-/// The single-impact zone of one scene.
-fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
+/// The single-impact zone of one scene: of the zones found the one whose motions between the two frequencies are hardest.
+fn zone_of_scene(
+    scene: &Scene,
+    between: (f64, f64),
+    monitor: Monitor<'_>,
+) -> Result<Zone, ZoneError> {
     let scene = &scene.check()?;
     refuse_below(scene)?;
     let mut zones: Vec<Zone> = Vec::new();
@@ -62,7 +65,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
     best.map(|(zone, _)| zone).ok_or(none)
 }
 
-/// The highest velocity of a zone's motions between two frequencies, and at these; none if it lies outside.
+/// The highest before-impact velocity of a zone's stable motions between two frequencies; none if the zone lies outside.
 fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
     let inside = zone.branch.iter();
     let inside = inside.filter(|it| it.is_stable() && (low..=high).contains(&it.parameter));
@@ -72,7 +75,7 @@ fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-/// The frequencies at which a scene's single-impact motions are looked for: g0, and some evenly spaced in ratio.
+/// The frequencies at which single-impact motions of a scene are searched: g0, and some evenly spaced in ratio between two.
 fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     let rate = scene.scales().rate;
     let (low, high) = (
@@ -92,7 +95,7 @@ fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     g0.into_iter().chain(inside).collect()
 }
 
-/// The single-impact zone about a motion; none if it has no width.
+/// The single-impact zone about a z = 1 motion, followed up and down from it; none if it has no width.
 fn zone_about(
     scene: &CheckedScene,
     start: &Orbit,

@@ -9,12 +9,12 @@ use super::{FrequencyFamily, Zone};
 use crate::continuation::{
     Branch, BranchEnd, BranchPoint, Continuation, Family, MAX_CHORD_DISTANCE, SpecialKind,
 };
-use crate::orbit::OrbitError;
+use crate::orbit::{Orbit, OrbitError};
 use crate::tolerance::{ROUNDING, SAME};
 use softstop::internals::highest_point;
 use softstop::{CheckedScene, Scene};
 
-/// A range of frequencies with a stable z = 1 motion that changes continuously.
+/// A range of frequencies in which one stable z = 1 motion of a machine changes continuously, with its ends.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct StableRange {
@@ -29,7 +29,7 @@ pub struct StableRange {
 }
 
 impl StableRange {
-    /// The motion at a frequency in rad/s; none outside the stable range.
+    /// The z = 1 motion at a frequency in rad/s; none outside the stable range.
     ///
     /// # Errors
     /// [`OrbitError`] if it is lost.
@@ -54,7 +54,16 @@ impl StableRange {
         }
     }
 
-    /// True if the stable range is a part of another one, or the same.
+    /// The orbit of the stable range at the frequency of a scene's drive; none outside the range, or if it is lost.
+    pub(super) fn orbit_at(&self, scene: &Scene) -> Option<Orbit> {
+        let scene = scene.check().ok()?;
+        let point = self.point_at(&scene, scene.excitation.frequency).ok()??;
+        let family = FrequencyFamily(&scene);
+        let orbit = Continuation::new(&family, 1).orbit_at(&point).ok()?;
+        (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
+    }
+
+    /// True if the stable range is a part of another one, or the same one.
     pub(super) fn is_within(&self, other: &Self, scene: &CheckedScene) -> bool {
         let middle = &self.points[self.points.len() / 2];
         let near = |frequency: f64| SAME * frequency.abs();
@@ -63,7 +72,7 @@ impl StableRange {
             && other.contains_point(scene, middle).unwrap_or(false)
     }
 
-    /// True if a point lies on the stable range.
+    /// True if a point of a branch lies on the stable range.
     ///
     /// # Errors
     /// [`OrbitError`] if the stable range is lost.
@@ -87,21 +96,21 @@ impl StableRange {
     }
 }
 
-/// True if a point is at a state of the same frequency but for rounding.
+/// True if a point of a stable range has a given state but for rounding, at the same frequency.
 pub(super) fn is_same_state(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
     let size = other.norm().max(scene.scales().length);
     (one.state() - other).norm() < SAME * size
 }
 
-/// Scales of positions, velocities and frequencies of a scene.
+/// Scales of position, velocity and frequency, by which it is told whether a point lies on a stable range.
 pub(super) fn unknown_scales(scene: &CheckedScene) -> [f64; 3] {
     let family = FrequencyFamily(scene);
     let ([length, speed], [rate]) = (family.state_scales(), family.parameter_scales());
     [length, speed, rate]
 }
 
-/// True if a point lies on the chord between two neighbouring points of a branch, or as near to it as the branch may; state,
-/// frequency and before-impact velocity in units of the three scales.
+/// True if a point lies on the chord between two neighbouring points of a stable range or branch, or as near to it as the branch
+/// itself may: by state, frequency and before-impact velocity in units of the three scales.
 pub(super) fn lies_on_chord(
     pair: &[BranchPoint],
     point: &BranchPoint,
@@ -124,11 +133,11 @@ pub(super) fn lies_on_chord(
         && off <= MAX_CHORD_DISTANCE * way.norm() + SAME
 }
 
-/// The stable ranges of a branch.
+/// The stable ranges of a branch: its parts between special points along which z = 1 is stable.
 pub(super) fn stable_parts(continuation: &Continuation<'_>, branch: &Branch) -> Vec<StableRange> {
     let mut found = Vec::new();
     let mut part = RangeCandidate::new((Loss::of_branch_end(&branch.ends.0), None));
-    for point in in_order(branch) {
+    for point in points_from_special(branch) {
         let special = branch.special_at(point);
         let cause = special.map(|special| (Loss::at_special(&special.kind), Some(special.kind)));
         if let Some(cause) = cause.or_else(|| Some((part.impact_change(point)?, None))) {
@@ -142,8 +151,8 @@ pub(super) fn stable_parts(continuation: &Continuation<'_>, branch: &Branch) -> 
     found
 }
 
-/// The points of a branch; those of a closed one from its first special point around to it again.
-fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
+/// The points of a branch in order; those of a closed branch from its first special point around to it again.
+fn points_from_special(branch: &Branch) -> Vec<&BranchPoint> {
     let points = branch.points.iter();
     let (BranchEnd::Closed, Some(first)) = (&branch.ends.1, branch.specials.first()) else {
         return points.collect();
@@ -157,17 +166,17 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
     points
 }
 
-/// Why a part of a branch ends, and the special point there.
+/// Why a part of a branch ends, and the special point there, if one is.
 type EndCause = (Loss, Option<SpecialKind>);
 
-/// A part of a branch that may be a stable range: its points between two special ones.
+/// A part of a branch between two special points, which may be a stable range.
 struct RangeCandidate {
     begins: EndCause,
     points: Vec<BranchPoint>,
 }
 
 impl RangeCandidate {
-    /// A part of a branch without points, with the reason for which it begins.
+    /// A part of a branch without points yet; `begins`: why it begins where it does.
     fn new(begins: EndCause) -> Self {
         Self {
             begins,
@@ -175,7 +184,8 @@ impl RangeCandidate {
         }
     }
 
-    /// The loss where the number of impacts changes but at a special point: in a grazing that is not located.
+    /// The loss of the motion at the next point of the branch if the number of impacts changes there without a special point: in
+    /// a grazing that is not located. None if the number stays.
     fn impact_change(&self, point: &BranchPoint) -> Option<Loss> {
         let last = self.points.get(1..)?.last()?;
         match (last.impacts.len(), point.impacts.len()) {
@@ -184,8 +194,8 @@ impl RangeCandidate {
         }
     }
 
-    /// The stable range of this part, whose upper end has this cause, if most motions between the ends are stable, all have one
-    /// impact, and the ends are told apart.
+    /// The stable range that the part is, if most of its motions are stable, all have one impact, and its ends lie apart beyond
+    /// rounding; `ends`: why it ends where it does.
     fn into_range(self, continuation: &Continuation<'_>, ends: EndCause) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         let end = points.pop()?;
@@ -225,10 +235,7 @@ impl RangeCandidate {
     }
 }
 
-/// Share of the way between the neighbours of the hardest point to which it is known, its velocity to ten digits.
-const TOP_WIDTH: f64 = 1e-5;
-
-/// The point with the hardest impact along points in rising order: by golden section about the hardest of them.
+/// The point with the hardest impact along points in rising order of frequency: by golden section about the hardest of them.
 fn hardest_point(continuation: &Continuation<'_>, points: &[BranchPoint]) -> Option<BranchPoint> {
     let velocity = BranchPoint::before_impact_velocity;
     let harder = |a: usize, b: usize| velocity(&points[a]).total_cmp(&velocity(&points[b]));
@@ -249,7 +256,8 @@ fn hardest_point(continuation: &Continuation<'_>, points: &[BranchPoint]) -> Opt
     };
     let [low, high] = [below, above].map(|at| points[at].parameter);
     let height = |frequency: f64| between(frequency).map_or(f64::NEG_INFINITY, |it| velocity(&it));
-    let (top, _) = highest_point(low, high, TOP_WIDTH * (high - low), height);
+    // To a share of 1e-5 of the way, so that the velocity is known to ten digits.
+    let (top, _) = highest_point(low, high, 1e-5 * (high - low), height);
     let top = between(top).filter(|top| velocity(top) > velocity(&points[best]));
     Some(top.unwrap_or_else(|| points[best].clone()))
 }

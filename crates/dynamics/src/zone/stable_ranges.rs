@@ -14,27 +14,27 @@ use crate::orbit::{
 use crate::tolerance::NEAR;
 use softstop::{CheckedScene, Scene};
 
-/// Frequencies in units of the natural one between which z = 1 motions are searched, and how many of them in a row:
-/// closely below, where a drive period holds several free ones and stable ranges are narrow.
+/// Rows of frequencies at which z = 1 motions are searched: lowest and highest in units of the natural frequency, and how many.
+/// They lie closer at low frequencies, where a drive period holds several free ones and stable ranges are narrow.
 const SEARCH_ROWS: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
-/// Frequencies in units of the natural one, or of g0, up to which branches are followed; below, they wind.
+/// Range of frequencies in which branches are followed, in units of the natural frequency, or of g0; below it they wind.
 pub(super) const FOLLOWED_RANGE: (f64, f64) = (0.25, 8.0);
-/// Points of a branch in each direction.
+/// Most points of a branch that is followed for stable ranges, in each direction.
 const MAX_RANGE_POINTS: usize = 20_000;
 
-/// Share of a frequency within which motions are searched where one there is nearly one: as far as the row is wide.
+/// Share of a frequency about it within which motions are searched where one at it is nearly z = 1: the spacing of the row.
 const FREE_SHARE: f64 = 0.08;
-/// Shares of a frequency by which motions are searched beyond a branch's end, by the impact there.
+/// Shares of a frequency by which motions are searched beyond a border collision, from the impact there.
 const BEYOND_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
-/// Most frequencies at which motions are searched, and most branches.
+/// Most frequencies at which motions are searched for stable ranges, and most branches that are followed.
 const MAX_BRANCHES: usize = 200;
 
 /// All stable ranges of a scene, in rising order of frequency; the frequency of its drive plays no part.
 ///
-/// At each of a row of frequencies all z = 1 motions are found; those that lie on no branch known so far are followed
-/// both ways, through folds. So branches that no motion at g0 leads to, isolas among them, come to light. Where a branch
-/// ends in a border collision, motions are looked for on both sides of it: what goes on there is another branch. Ranges narrower
-/// than 2e-9 of their frequency are left out: each end is known to 1e-9, as at resonances with hardly any damping.
+/// At each of a row of frequencies all z = 1 motions are found; those that lie on no branch known so far are followed both ways,
+/// through folds. So branches that no motion at g0 leads to, isolas among them, come to light. Where a branch ends in a border
+/// collision, motions are looked for on both sides of it: what goes on there is another branch. Ranges narrower than 2e-9 of
+/// their frequency are left out: each end is known to 1e-9, as at resonances with hardly any damping.
 ///
 /// # Errors
 /// [`ZoneError::Orbit`] for a scene that is none.
@@ -42,7 +42,8 @@ pub fn stable_ranges(scene: &Scene) -> Result<Vec<StableRange>, ZoneError> {
     stable_ranges_with_monitor(scene, &unmonitored)
 }
 
-/// All stable ranges of a scene, as long as a monitor, which sees no progress, lets the search go on.
+/// All stable ranges of a scene as [`stable_ranges`] finds them, as long as a monitor, which is not told how much is done, lets
+/// the search go on.
 ///
 /// # Errors
 /// As [`stable_ranges`]; [`OrbitError::Stopped`].
@@ -54,7 +55,7 @@ pub fn stable_ranges_with_monitor(
     Ok(find_stable_ranges(scene, monitor)?.ranges)
 }
 
-/// The stable ranges of a scene, and what else their search finds.
+/// The stable ranges of a scene, and the z = 1 orbits at g0 that their search meets.
 #[derive(Debug)]
 pub(super) struct FoundRanges {
     /// In rising order of frequency.
@@ -63,7 +64,7 @@ pub(super) struct FoundRanges {
     pub singles_at_grazing: Option<Vec<Orbit>>,
 }
 
-/// Finds all stable ranges of a scene.
+/// Searches all stable ranges of a scene, as [`stable_ranges`] says.
 pub(super) fn find_stable_ranges(
     scene: &Scene,
     monitor: Monitor<'_>,
@@ -71,7 +72,11 @@ pub(super) fn find_stable_ranges(
     let scene = &scene.check()?;
     let family = FrequencyFamily(scene);
     let continuation = Continuation::new(&family, 1);
-    let limits = branch_limits(scene);
+    let natural = scene.scales().rate;
+    let limits = BranchLimits {
+        range: (FOLLOWED_RANGE.0 * natural, FOLLOWED_RANGE.1 * natural),
+        points: MAX_RANGE_POINTS,
+    };
     let sizes = unknown_scales(scene);
     let mut branches: Vec<Branch> = Vec::new();
     let grazing = grazing_frequencies(scene).ok();
@@ -138,7 +143,7 @@ pub(super) fn find_stable_ranges(
     })
 }
 
-/// True if a point near the chord between two neighbours is not the one between them on their branch.
+/// True if a point near the chord between two neighbours of a branch is not that branch's motion at its frequency.
 fn is_off_branch(
     continuation: &Continuation<'_>,
     pair: &[BranchPoint],
@@ -150,16 +155,7 @@ fn is_off_branch(
     is_inside && own().is_ok_and(|own| !is_same_state(&own, point.state(), scene))
 }
 
-/// The limits of the branches of a scene.
-fn branch_limits(scene: &Scene) -> BranchLimits {
-    let natural = scene.scales().rate;
-    BranchLimits {
-        range: (FOLLOWED_RANGE.0 * natural, FOLLOWED_RANGE.1 * natural),
-        points: MAX_RANGE_POINTS,
-    }
-}
-
-/// The frequencies at which motions are searched: g0, those beside both grazings, the rows, and beside their end.
+/// The frequencies at which z = 1 motions are searched: g0, beside both grazings, the [`SEARCH_ROWS`], and beside the lowest.
 fn search_frequencies(scene: &Scene, grazing: Option<(Option<f64>, f64)>) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = SEARCH_ROWS.into_iter().flat_map(|(low, high, count)| {
@@ -177,7 +173,7 @@ fn search_frequencies(scene: &Scene, grazing: Option<(Option<f64>, f64)>) -> Vec
     all.filter(|frequency| *frequency >= lowest).collect()
 }
 
-/// Points at which a branch ends but does not leave the range.
+/// The ends of a branch beyond which another may go on: at grazing, border collision, or where it is unstable or lost.
 fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
     let ends = [
         (&branch.ends.0, branch.points.first()),
@@ -192,7 +188,7 @@ fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
     ends.into_iter().filter_map(border).collect()
 }
 
-/// The orbits beside a border with nearly the impact of the motion there.
+/// The z = 1 orbits at frequencies just beside a border collision whose impact is nearly that of the motion there.
 fn orbits_beyond(scene: &CheckedScene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
     let shares = BEYOND_SHARES.into_iter().flat_map(|share| [-share, share]);
@@ -206,7 +202,7 @@ fn orbits_beyond(scene: &CheckedScene, border: &Orbit) -> Vec<Orbit> {
     shares.filter_map(near).flatten().collect()
 }
 
-/// The two frequencies beside one.
+/// The two frequencies close below and above one, as near as Newton's method tells motions apart.
 fn frequencies_beside(frequency: f64) -> [f64; 2] {
     [
         frequency * (1.0 - 2.0 * NEAR),

@@ -7,28 +7,26 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::catalogue::AttractorCatalogue;
-use super::chaos::{Chaos, EscapeCounts};
+use super::chaos::ChaosCandidate;
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
 use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_recurrence;
-use crate::orbit::{
-    self, LyapunovExponents, Orbit, OrbitError, Regime, harder_single_impact_orbit,
-};
+use crate::orbit::{self, Orbit, OrbitError, Regime, harder_single_impact_orbit};
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene, Start};
 use softstop_lanes::LoweredMachine;
 
-/// Starts of the pilot, which shows where motions stay.
+/// Number of pilot starts, from far and wide, which show where motions stay.
 const PILOTS: usize = 64;
-/// Divisor of the drive periods of watching for motions that do not run in lanes and cost more.
+/// Divisor of the drive periods for which wandering motions are watched where they do not run in lanes and cost more.
 const SLOW_WATCH_DIVISOR: u64 = 20;
-/// How many times longer wandering motions are watched from one look to the next.
+/// Factor by which the time grows for which wandering motions are watched between two checks.
 const BATCH_GROWTH: u64 = 2;
-/// Divisor of the transient after which costly motions are first classified: some have arrived by then.
-const FIRST_LOOK_DIVISOR: u64 = 4;
+/// Divisor of the transient after which motions that do not run in lanes are first classified: some have arrived by then.
+const FIRST_CHECK_DIVISOR: u64 = 4;
 
-/// A motion of the search of attractors.
+/// A motion of a search of attractors.
 struct SearchMember {
     member: Member,
     /// The number of its group, if it wanders.
@@ -37,43 +35,18 @@ struct SearchMember {
     counts: bool,
 }
 
-/// A group of wandering motions that visit the same places.
-#[derive(Default)]
-struct Group {
-    exponents: Option<LyapunovExponents>,
-    chaos: Option<Chaos>,
-    /// Counts of the drive periods for which its motions were watched, and which had settled elsewhere then.
-    escapes: EscapeCounts,
-    /// Starts of the region that came to the group.
-    entered: usize,
-}
-
-impl Group {
-    /// Keeps the exponents of the motion whose first one is the largest.
-    fn keep_largest(&mut self, exponents: LyapunovExponents) {
-        let first = |of: &LyapunovExponents| of.per_period[0];
-        if self
-            .exponents
-            .as_ref()
-            .is_none_or(|best| first(best).is_nan() || first(&exponents) > first(best))
-        {
-            self.exponents = Some(exponents);
-        }
-    }
-}
-
-/// A search of the attractors of a scene.
+/// A search of the attractors of a scene, under way: motions, known orbits, and groups of wandering motions.
 struct Search<'a> {
     scene: CheckedScene,
     options: SearchOptions,
     ensemble: Ensemble<'a>,
     catalogue: AttractorCatalogue,
     members: Vec<SearchMember>,
-    groups: BTreeMap<usize, Group>,
+    groups: BTreeMap<usize, ChaosCandidate>,
 }
 
-/// Finds all motions on which a scene settles. The result depends on scene and options alone, not on the number of
-/// threads. The monitor is told of the drive periods.
+/// Finds the attractors of a scene, motions from many starts settle on them. The result depends on scene and options alone, not
+/// on the number of threads. The monitor is told of the drive periods.
 ///
 /// ```
 /// use softstop::Ratios;
@@ -97,8 +70,8 @@ pub fn find_attractors(
     find_attractors_until(scene, options, |_| false, monitor)
 }
 
-/// The motions on which a scene settles, until a stable orbit is met that is enough: that is asked after the starts from far
-/// and wide, which count in no share, and again whenever motions that do not settle are looked at.
+/// Finds the attractors of a scene, but ends the search once a stable orbit is met of which `is_enough` is true. That is asked
+/// after the pilot starts, which count in no share, and each time wandering motions have been watched.
 ///
 /// # Errors
 /// As [`find_attractors`].
@@ -113,7 +86,7 @@ pub fn find_attractors_until(
     search.ensemble.planned = run * (options.starts + PILOTS) as u64 + search.watch_periods();
     let pilot = Region::pilot(scene);
     search.launch_starts(pilot.starts(PILOTS, options.seed), false)?;
-    if search.knows(&is_enough) {
+    if search.knows_orbit(&is_enough) {
         return search.into_survey(pilot);
     }
     let region = options
@@ -121,16 +94,16 @@ pub fn find_attractors_until(
         .or_else(|| Region::about_states(scene, search.end_states()));
     let region = region.unwrap_or(pilot);
     search.launch_starts(region.starts(options.starts, options.seed), true)?;
-    if !search.knows(&is_enough) {
+    if !search.knows_orbit(&is_enough) {
         search.watch_wandering(&is_enough)?;
     }
     search.into_survey(region)
 }
 
-/// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the
-/// amplitude of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much again as
-/// any motion needs that 64 starts from far and wide come to, or that [`orbit::find`] or a lattice of impacts shows. It depends
-/// on the scene alone.
+/// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the amplitude
+/// of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much again as any motion needs
+/// that 64 starts from far and wide come to, or that [`orbit::find`] or a lattice of impacts shows. It depends on the scene
+/// alone.
 ///
 /// # Errors
 /// As [`find_attractors`].
@@ -138,8 +111,8 @@ pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, Orbit
     Ok(Region::start_box(scene, end_states(scene, monitor)?))
 }
 
-/// States of the motions that 64 starts from far and wide come to, and of the hardest stable z = 1: that of
-/// [`orbit::find`], or where starts come to one, any harder one that a lattice of impacts shows.
+/// States of the motions that the pilot starts settle on, and of the hardest stable z = 1 motion: that of [`orbit::find`], or
+/// where starts come to one, any harder one that a lattice of impacts shows.
 pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
     let options = SearchOptions::default();
     let mut search = Search::new(scene, &options, monitor)?;
@@ -157,7 +130,7 @@ pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Star
     Ok(search.end_states().copied().chain(hardest).collect())
 }
 
-/// The attractor that the motion from one start settles on.
+/// The attractor that the motion from one start settles on, however long that takes.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is invalid or the motion cannot be computed.
@@ -177,7 +150,8 @@ pub fn classify_start(
     found.into_iter().next().ok_or(OrbitError::Stopped)
 }
 
-/// Where motions from starts have arrived after the transient: cheaper than [`classify_start`], and no farther.
+/// What the motions from starts have come to after the transient: cheaper than [`classify_start`], and they are followed no
+/// farther.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is invalid or a motion cannot be computed; [`OrbitError::Stopped`].
@@ -206,7 +180,7 @@ pub fn settle_starts(
 }
 
 impl<'a> Search<'a> {
-    /// A search of the attractors of a scene that has no motions yet.
+    /// A search without motions.
     fn new(
         scene: &Scene,
         options: &SearchOptions,
@@ -223,7 +197,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Number of states in a log.
+    /// Number of last states that are recorded of a motion to classify it: its log.
     fn log_length(&self) -> usize {
         2 * self.options.longest + 1
     }
@@ -236,13 +210,14 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// True if it knows a stable orbit that is enough.
-    fn knows(&self, is_enough: impl Fn(&Orbit) -> bool) -> bool {
+    /// True if a stable orbit that the search has found is enough.
+    fn knows_orbit(&self, is_enough: impl Fn(&Orbit) -> bool) -> bool {
         let mut known = self.catalogue.orbits.iter();
         known.any(|known| is_enough(&known.orbit))
     }
 
-    /// Where motions of the search stay: the states of the orbits at which they have arrived, or their last states.
+    /// States where motions of the search have come to: those of the orbits reached, or the last ones of motions that have
+    /// reached none.
     fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
         let members = self.members.iter().map(|it| &it.member);
         members.flat_map(|member| match member.status {
@@ -251,7 +226,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Launches motions from starts, lets them settle and classifies them.
+    /// Advances motions from starts over the transient and classifies them; `counts`: they count in the attractors' shares.
     fn launch_starts(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), OrbitError> {
         let first = self.members.len();
         let members = starts.into_iter().map(|start| SearchMember {
@@ -262,16 +237,16 @@ impl<'a> Search<'a> {
         self.members.extend(members);
         let all = first..self.members.len();
         let (transient, logged) = (self.options.transient, self.log_length() as u64);
-        let early = transient / FIRST_LOOK_DIVISOR;
-        if self.ensemble.skips_periods() && early < FIRST_LOOK_DIVISOR * logged {
-            return self.carry_on_open(all, transient + logged, self.log_length());
+        let early = transient / FIRST_CHECK_DIVISOR;
+        if self.ensemble.skips_periods() && early < FIRST_CHECK_DIVISOR * logged {
+            return self.advance_open_members(all, transient + logged, self.log_length());
         }
-        self.carry_on_open(all.clone(), early + logged, self.log_length())?;
-        self.carry_on_open(all, (transient - early).max(logged), self.log_length())
+        self.advance_open_members(all.clone(), early + logged, self.log_length())?;
+        self.advance_open_members(all, (transient - early).max(logged), self.log_length())
     }
 
-    /// Advances the motions that have not arrived and classifies them by so many of their last states.
-    fn carry_on_open(
+    /// Advances those of some motions that have not arrived, and classifies each by its `logged` last states.
+    fn advance_open_members(
         &mut self,
         which: Range<usize>,
         periods: u64,
@@ -289,8 +264,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Watches the motions that have not arrived until the drive periods for that are used up, or an orbit is met that is
-    /// enough.
+    /// Watches the motions that have not arrived until their drive periods are used up, or an orbit is met that is enough.
     fn watch_wandering(&mut self, is_enough: &dyn Fn(&Orbit) -> bool) -> Result<(), OrbitError> {
         self.group_wandering()?;
         let mut left = self.watch_periods();
@@ -302,7 +276,7 @@ impl<'a> Search<'a> {
             if before.is_empty() || periods < self.log_length() as u64 {
                 break;
             }
-            self.carry_on_open(0..self.members.len(), periods, self.log_length())?;
+            self.advance_open_members(0..self.members.len(), periods, self.log_length())?;
             left -= periods * before.len() as u64;
             for index in before {
                 let member = &self.members[index];
@@ -312,14 +286,14 @@ impl<'a> Search<'a> {
                 }
             }
             periods *= BATCH_GROWTH;
-            if self.knows(is_enough) {
+            if self.knows_orbit(is_enough) {
                 return Ok(());
             }
         }
         self.search_long_periods()
     }
 
-    /// Numbers of the motions of the search that have not arrived.
+    /// Indices of the motions of the search that have not arrived.
     fn open_members(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.members.len()).filter(|index| self.members[*index].member.status.is_open())
     }

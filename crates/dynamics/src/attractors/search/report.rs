@@ -1,9 +1,9 @@
 //! The survey that a search of attractors reports.
 
 use super::super::catalogue::KnownOrbit;
-use super::super::chaos::Chaos;
+use super::super::chaos::ChaosCandidate;
 use super::super::{Attractor, Region, Survey};
-use super::{Group, Search, SearchMember};
+use super::{Search, SearchMember};
 use crate::ensemble::MemberStatus;
 use crate::extremes::extremes;
 use crate::motion::MotionKind;
@@ -11,7 +11,7 @@ use crate::orbit::{LyapunovExponents, OrbitError};
 use softstop::MotionError;
 
 impl Search<'_> {
-    /// The survey of all attractors that the search has found, with starts in a region.
+    /// The survey that the search reports, of all its attractors; `region`: of the starts that count.
     pub(super) fn into_survey(mut self, region: Region) -> Result<Survey, OrbitError> {
         let counted = self.members.iter().filter(|member| member.counts).count();
         let mut attractors = self.periodic_attractors(counted);
@@ -30,7 +30,7 @@ impl Search<'_> {
         })
     }
 
-    /// The periodic attractors that the search has found, by the starts that are counted.
+    /// The stable orbits that the search has found, as attractors; `counted`: number of starts that count in the shares.
     fn periodic_attractors(&self, counted: usize) -> Vec<Attractor> {
         let known = self.catalogue.orbits.iter().enumerate();
         let attractor = |(index, known): (usize, &KnownOrbit)| {
@@ -46,9 +46,10 @@ impl Search<'_> {
         known.map(attractor).collect()
     }
 
-    /// The attractors that wander: chaos, transient chaos, and what has not settled.
+    /// The attractors of wandering motions: chaos, transient chaos, and unsettled ones; `counted`: number of starts that count in
+    /// shares.
     fn wandering_attractors(&self, counted: usize) -> Vec<Attractor> {
-        let attractor = |(number, group): (&usize, &Group)| {
+        let attractor = |(number, group): (&usize, &ChaosCandidate)| {
             let wanders = |it: &&SearchMember| {
                 it.group == Some(*number) && it.member.status == MemberStatus::Wandering
             };
@@ -77,7 +78,7 @@ impl Search<'_> {
         self.groups.iter().filter_map(attractor).collect()
     }
 
-    /// The attractor of motions that end at rest, if some do.
+    /// The attractor of the motions that end at rest, if some do; `counted`: number of starts that count in the shares.
     fn rest_attractor(&self, counted: usize) -> Option<Attractor> {
         let rests = |it: &&SearchMember| it.member.status == MemberStatus::AtRest;
         let members: Vec<&SearchMember> = self.members.iter().filter(rests).collect();
@@ -86,18 +87,6 @@ impl Search<'_> {
         Some(Attractor {
             positions: Some(positions),
             ..Attractor::new(MotionKind::Rest, members[0].member.state, (starts, counted))
-        })
-    }
-}
-
-impl Group {
-    /// The chaos of a group with the lifetime by its escapes, if it is any.
-    fn chaos_with_escapes(&self) -> Option<Chaos> {
-        Some(Chaos {
-            watched: self.escapes.watched_periods(),
-            lifetime: self.escapes.mean_lifetime(),
-            entered: self.entered,
-            ..self.chaos?
         })
     }
 }

@@ -2,22 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use super::super::chaos::Chaos;
+use super::super::chaos::{Chaos, ChaosCandidate};
 use super::super::group_logs::group_logs;
-use super::{BATCH_GROWTH, Group, Search};
+use super::{BATCH_GROWTH, Search};
 use crate::ensemble::{Member, MemberStatus};
 use crate::orbit::{LYAPUNOV_BATCH_PERIODS, LyapunovExponents, OrbitError};
 use softstop::Start;
 
-/// Relative error up to which a Lyapunov exponent is accurate enough.
+/// Relative error below which the largest Lyapunov exponent of a motion is measured accurately enough.
 const EXPONENT_ACCURACY: f64 = 0.05;
-/// Motions of a group whose exponent is tried before the group is given up.
+/// Number of motions of a group whose exponents are measured at most until one shows chaos.
 const MAX_EXPONENT_TRIES: usize = 6;
-/// Longest period looked for at last, in units of the usual one.
-const LAST_LOOK_FACTOR: usize = 8;
+/// Factor by which the longest period that wandering motions are searched for is larger at the end of a search.
+const LAST_SEARCH_FACTOR: usize = 8;
 
 impl Search<'_> {
-    /// Groups the wandering motions of the search and measures the exponents of each group; those that are no chaos are one.
+    /// Groups the wandering motions of the search by the places that they visit, and measures the exponents of each group; groups
+    /// that are not chaotic become one.
     pub(super) fn group_wandering(&mut self) -> Result<(), OrbitError> {
         let wandering: Vec<usize> = self
             .open_members()
@@ -45,23 +46,23 @@ impl Search<'_> {
             known.entered += group.entered;
             known.chaos = group.chaos.or(known.chaos);
             if let Some(own) = group.exponents {
-                known.keep_largest(own);
+                known.keep_largest_exponents(own);
             }
         }
         Ok(())
     }
 
-    /// Measures the exponents of a group: of its first motion with a positive one that does not settle meanwhile.
-    fn measure_group(&mut self, indices: &[usize]) -> Result<Group, OrbitError> {
+    /// Measures the exponents of motions of a group in turn until one is chaotic: has a positive exponent and still wanders.
+    fn measure_group(&mut self, indices: &[usize]) -> Result<ChaosCandidate, OrbitError> {
         let counts = |index: &&usize| self.members[**index].counts;
-        let mut group = Group {
+        let mut group = ChaosCandidate {
             entered: indices.iter().filter(counts).count(),
-            ..Group::default()
+            ..ChaosCandidate::default()
         };
         for &index in indices.iter().take(MAX_EXPONENT_TRIES) {
             let state = self.members[index].member.state;
             let (exponents, end, wanders) = self.measure_exponents(state)?;
-            group.keep_largest(exponents);
+            group.keep_largest_exponents(exponents);
             if wanders && exponents.is_positive() {
                 let chaos = Chaos::of_motion(&self.scene, &self.ensemble, (state, end), exponents)?;
                 // Without impacts the motion is linear and damped: it settles, if slowly.
@@ -74,8 +75,8 @@ impl Search<'_> {
         Ok(group)
     }
 
-    /// Measures the exponents along the motion from a state, over ever longer times until they are accurate, or the
-    /// motion settles; the state then, and whether the motion still wandered.
+    /// Measures the exponents along the motion from a state, over ever longer times until they are accurate or the motion
+    /// settles; also returns its last state and whether it still wandered.
     fn measure_exponents(
         &mut self,
         state: Start,
@@ -108,20 +109,20 @@ impl Search<'_> {
         }
     }
 
-    /// Looks at last whether wandering motions without a positive exponent return after very many periods.
+    /// Checks at the end of a search whether wandering motions that are not chaotic return after very many periods.
     pub(super) fn search_long_periods(&mut self) -> Result<(), OrbitError> {
-        let logged = LAST_LOOK_FACTOR * self.log_length();
+        let logged = LAST_SEARCH_FACTOR * self.log_length();
         let unsettled: Vec<usize> = self
             .open_members()
             .filter(|index| !self.is_chaotic(*index))
             .collect();
         for index in unsettled {
-            self.carry_on_open(index..index + 1, logged as u64, logged)?;
+            self.advance_open_members(index..index + 1, logged as u64, logged)?;
         }
         Ok(())
     }
 
-    /// True if the group of a motion of the search is chaos.
+    /// True if the group of a wandering motion is chaotic.
     fn is_chaotic(&self, index: usize) -> bool {
         let group = self.members[index]
             .group

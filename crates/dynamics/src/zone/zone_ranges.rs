@@ -8,9 +8,9 @@ use crate::orbit::Orbit;
 use crate::tolerance::SAME;
 
 impl Zone {
-    /// The zone itself, or where its branch folds back within it each range of one motion as a zone of its own, in order along
-    /// the branch: they overlap in frequency, and a motion ends at the folds beside it. Undivided, too, where one of these
-    /// ranges ends in anything but a fold or an end of the zone.
+    /// The ranges of the zone along each of which one stable motion goes on, as zones of their own, in order along the branch:
+    /// where the branch folds back they overlap in frequency, and a motion ends at the folds beside it. The zone itself alone
+    /// where it does not fold back, or a range ends in anything but a fold or an end of the zone.
     pub fn ranges(&self) -> Vec<Self> {
         let sides: Vec<&[BranchPoint]> = self.stable_sides().collect();
         let ranges = sides.iter().map(|side| self.range_on(side));
@@ -37,7 +37,7 @@ impl Zone {
         }
     }
 
-    /// Of the [`Zone::ranges`] the one that holds an orbit of the zone's machine; none if it is an orbit of another branch.
+    /// The one of the [`Zone::ranges`] that holds an orbit of the zone's machine; none if it is an orbit of another branch.
     pub fn range_holding(&self, orbit: &Orbit) -> Option<Self> {
         let holds = |range: &Self| {
             let point = range.point_at(range.place_of(orbit.scene.excitation.frequency));
@@ -46,7 +46,7 @@ impl Zone {
         self.ranges().into_iter().find(holds)
     }
 
-    /// The range along a stable side; none if it ends in anything but a fold or an end of the zone.
+    /// The range along one stable side of the branch, as a zone; none if it does not end in folds or ends of the zone.
     fn range_on(&self, side: &[BranchPoint]) -> Option<Self> {
         let end = |point: &BranchPoint, own: &ZoneEnd| match own.frequency == point.parameter {
             true => Some(own.clone()),
@@ -64,8 +64,8 @@ impl Zone {
         })
     }
 
-    /// Parts of the branch on the stable side of folds: from the lower end to the first fold, and from there on each between
-    /// two neighbouring folds along which the parameter rises.
+    /// The parts of the zone's branch on the stable side of its folds: from the lower end to the first fold, then between
+    /// neighbouring folds along which the frequency rises.
     pub(super) fn stable_sides(&self) -> impl Iterator<Item = &[BranchPoint]> {
         let is_beyond_fold = |point: &BranchPoint| point.fold_test() < -SAME;
         let sides = self

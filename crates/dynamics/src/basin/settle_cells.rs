@@ -1,35 +1,31 @@
-//! The cells of a basin survey: following them until a contraction ball holds them, and their classes by what they come to.
+//! Follows the cells of a basin survey until a contraction ball holds them, or, where they settle slowly, for longer.
 
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::Basins;
 use super::basin_test::PERIODS_BETWEEN_CHECKS;
 use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
-use crate::attractors::Attractor;
-use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
-use crate::motion::MotionKind;
-use crate::orbit::{LYAPUNOV_BATCH_PERIODS, LyapunovExponents, Orbit, OrbitError};
+use crate::orbit::{LYAPUNOV_BATCH_PERIODS, LyapunovExponents, OrbitError};
 use crate::parallel;
 use softstop::Start;
 
-/// Cells that go together as in [`TILE_CELLS`], where each motion goes alone, and takes long.
+/// Number of cells of a tile, which are followed together, where motions do not run in lanes and take long.
 const SMALL_TILE_CELLS: usize = 16;
-/// Longest time that cells are followed before a piece is stored; pieces grow up to it.
+/// Longest time that cells are followed before what they have come to is stored as a piece; the time grows up to it.
 const MAX_PIECE_TIME: Duration = Duration::from_secs(5);
 
-/// Logarithm of the factor by which a motion that settles slowly is let come nearer: ten digits.
+/// Logarithm of the factor by which a slowly settling motion approaches its orbit before it is classified again.
 const SLOW_DECAY_LOG: f64 = 23.0;
-/// Most drive periods for which motions that settle slowly are followed on.
+/// Most drive periods for which slowly settling motions are followed on.
 const MAX_SLOW_PERIODS: u64 = 8192;
 
-/// A cell, where its motion is, and what it has come to.
+/// A followed cell: its index, the latest state of its motion, and what it has come to.
 type FollowedCell = (usize, Start, MemberStatus);
 
-/// Cells that were followed together for some time.
+/// The result of following cells together for some time, which is stored as one piece.
 #[derive(Serialize, Deserialize)]
 struct FollowedCells {
     /// Drive periods so far.
@@ -40,7 +36,7 @@ struct FollowedCells {
 }
 
 impl BasinSurvey<'_> {
-    /// Follows all open cells of the survey until a ball holds them or the transient is over.
+    /// Follows all open cells of the survey until a contraction ball holds their motions or the transient is over.
     pub(super) fn settle_cells(&mut self) -> Result<(), OrbitError> {
         let open: Vec<usize> = self.open_cells().collect();
         let tile = if self.ensemble.runs_in_lanes() {
@@ -57,7 +53,7 @@ impl BasinSurvey<'_> {
         Ok(())
     }
 
-    /// Follows the cells of a tile, piece by piece, until a ball holds them; why the first lost one is lost.
+    /// Follows the cells of a tile, piece by piece, until a contraction ball holds them; returns them and the first lost cell.
     fn follow_tile(
         &self,
         tile: &[usize],
@@ -87,7 +83,7 @@ impl BasinSurvey<'_> {
         Ok((ended, lost))
     }
 
-    /// Follows cells for some time, from so many drive periods on.
+    /// Follows cells together for some computing time, from `periods` drive periods on.
     fn follow_cells_for(
         &self,
         cells: &[FollowedCell],
@@ -137,9 +133,9 @@ impl BasinSurvey<'_> {
         Ok(all)
     }
 
-    /// Follows the cells that wander on where they settle slowly: where the largest exponent of one of three of them is negative
-    /// beyond doubt, for as long as it takes to gain [`SLOW_DECAY_LOG`]. The orbits that the scouts come to hold the others. The
-    /// exponents of the first one, if it was not followed on.
+    /// Follows wandering cells for longer where they settle slowly, which the exponents of three of them show: their largest is
+    /// negative beyond doubt. Each is followed for as long as it takes to gain [`SLOW_DECAY_LOG`]; the orbits that they come to
+    /// hold the other cells. Returns the exponents of the first wandering cell, if it was not followed on.
     pub(super) fn settle_slow_cells(&mut self) -> Result<Option<LyapunovExponents>, OrbitError> {
         let cells = 0..self.outcomes.len();
         let wandering = cells.filter(|cell| self.outcomes[*cell] == MemberStatus::Wandering);
@@ -180,8 +176,8 @@ impl BasinSurvey<'_> {
         Ok(first)
     }
 
-    /// The exponents along the motion of a cell from its latest state on.
-    fn exponents_of_cell(&self, cell: usize) -> Result<LyapunovExponents, OrbitError> {
+    /// The Lyapunov exponents along the motion of a cell from its latest state on.
+    pub(super) fn exponents_of_cell(&self, cell: usize) -> Result<LyapunovExponents, OrbitError> {
         let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
         let (exponents, _) = LyapunovExponents::along_motion_with_monitor(
             &self.scene,
@@ -190,85 +186,5 @@ impl BasinSurvey<'_> {
             ask,
         )?;
         Ok(exponents)
-    }
-
-    /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others; with the
-    /// exponents of the first cell that wanders, if they are known.
-    pub(super) fn into_basins(
-        self,
-        first: Option<LyapunovExponents>,
-    ) -> Result<Basins, OrbitError> {
-        let mut basins = Basins {
-            grid: *self.grid,
-            classes: Vec::new(),
-            cells: vec![0; self.outcomes.len()],
-            lost: self.lost.as_ref().map(|(_, error)| error.clone()),
-        };
-        let mut known: Vec<(usize, &KnownOrbit)> =
-            self.catalogue.orbits.iter().enumerate().collect();
-        let key = |orbit: &Orbit| (orbit.periods, orbit.impacts.len());
-        known.sort_by(|(_, a), (_, b)| {
-            let (a, b) = (&a.orbit, &b.orbit);
-            key(a).cmp(&key(b)).then(a.compare_velocity(b))
-        });
-        for (index, known) in known {
-            let class = |starts| Attractor {
-                certainty: Some(known.certainty),
-                ..Attractor::from_orbit(&known.orbit, starts)
-            };
-            self.enter_class(&mut basins, |it| it.attractor() == Some(index), class);
-        }
-        let (wandering, exponents) = self.classify_wandering_cells(first)?;
-        for (outcome, motion) in [
-            (MemberStatus::AtRest, MotionKind::Rest),
-            (MemberStatus::Wandering, wandering),
-            (MemberStatus::Lost, MotionKind::Lost),
-        ] {
-            let first = self.outcomes.iter().position(|it| *it == outcome);
-            let Some(first) = first else { continue };
-            let class = |starts| Attractor {
-                exponents: exponents.filter(|_| outcome == MemberStatus::Wandering),
-                ..Attractor::new(motion, self.states[first], starts)
-            };
-            self.enter_class(&mut basins, |it| it == outcome, class);
-        }
-        Ok(basins)
-    }
-
-    /// The kind of motion of the cells that have not returned, and the exponents of the first one, computed unless they are known.
-    fn classify_wandering_cells(
-        &self,
-        known: Option<LyapunovExponents>,
-    ) -> Result<(MotionKind, Option<LyapunovExponents>), OrbitError> {
-        let mut outcomes = self.outcomes.iter();
-        let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
-            return Ok((MotionKind::Unsettled, None));
-        };
-        let exponents = known.map_or_else(|| self.exponents_of_cell(cell), Ok)?;
-        let motion = match exponents.is_positive() {
-            true => MotionKind::Chaos,
-            false => MotionKind::Unsettled,
-        };
-        Ok((motion, Some(exponents)))
-    }
-
-    /// Enters the class of all cells with some outcome, if there are any.
-    fn enter_class(
-        &self,
-        basins: &mut Basins,
-        has_come: impl Fn(MemberStatus) -> bool,
-        class: impl FnOnce((usize, usize)) -> Attractor,
-    ) {
-        let number = basins.classes.len() as u16;
-        let mut own = 0;
-        for (cell, outcome) in basins.cells.iter_mut().zip(&self.outcomes) {
-            if has_come(*outcome) {
-                *cell = number;
-                own += 1;
-            }
-        }
-        if own > 0 {
-            basins.classes.push(class((own, self.outcomes.len())));
-        }
     }
 }
