@@ -9,17 +9,17 @@ use crate::design::conflict::stated;
 use crate::design::operating_point::OperatingPoint;
 use crate::design::{Design, Problem};
 use crate::limits::end_name;
-use crate::optimize::study::Study;
+use crate::optimize::study::ToleranceStudy;
 use crate::robust::CaseVerdict;
 
 /// A design in one operating point, and its machines within the tolerances in all of them.
-struct Row<'a> {
+struct CaseRow<'a> {
     problem: &'a Problem,
     point: &'a OperatingPoint<'a>,
-    study: Option<&'a Study>,
+    study: Option<&'a ToleranceStudy>,
 }
 
-impl<'a> Row<'a> {
+impl<'a> CaseRow<'a> {
     /// None of the drawing.
     fn case(&self) -> Option<&'a Case> {
         Some(&self.problem.cases[self.point.case?])
@@ -39,8 +39,8 @@ impl<'a> Row<'a> {
     }
 }
 
-fn columns<'a>() -> [Column<Row<'a>>; 15] {
-    columns! { Row<'a>, it;
+fn columns<'a>() -> [Column<CaseRow<'a>>; 15] {
+    columns! { CaseRow<'a>, it;
         "case" [None] Plain, "which" => it.case().map_or(DRAWING, |it| &it.name);
         "changes" [None] Plain, "what differs from the drawing" => changes(it);
         "weight" [None] Six, "weight in what is sought" => it.case().map_or(1.0, |it| it.weight);
@@ -59,7 +59,7 @@ fn columns<'a>() -> [Column<Row<'a>>; 15] {
     }
 }
 
-fn changes(row: &Row<'_>) -> String {
+fn changes(row: &CaseRow<'_>) -> String {
     let machine = &row.point.design.machine;
     let changes = row.case().map_or(&[][..], |it| &it.changes).iter();
     let changes = changes.map(|(parameter, value)| stated(machine, *parameter, *value));
@@ -67,12 +67,16 @@ fn changes(row: &Row<'_>) -> String {
 }
 
 /// A design in the drawing's operating point and in each case; nothing if there are no cases.
-pub(crate) fn records(problem: &Problem, design: &Design, study: Option<&Study>) -> Vec<Record> {
+pub(crate) fn records(
+    problem: &Problem,
+    design: &Design,
+    study: Option<&ToleranceStudy>,
+) -> Vec<Record> {
     if problem.cases.is_empty() {
         return Vec::new();
     }
     let points = problem.operating_points(design);
-    let row = |point| Row {
+    let row = |point| CaseRow {
         problem,
         point,
         study,

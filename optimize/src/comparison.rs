@@ -9,7 +9,7 @@ use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 
 /// A value of a machine and its motion, in the machine's own units.
-type Value<'a> = &'a dyn Fn(&Machine, &Orbit) -> Option<f64>;
+type ComparedValue<'a> = &'a dyn Fn(&Machine, &Orbit) -> Option<f64>;
 /// A value of a motion, in SI units.
 type FigureOf<'a> = dyn Fn(&Orbit) -> Option<f64> + 'a;
 
@@ -25,7 +25,7 @@ pub(crate) fn comparison(
         .iter()
         .map(|it| (it.name, stated_like(machine, &it.machine), &it.orbit));
     let all: Vec<(&'static str, Machine, &Orbit)> = [own].into_iter().chain(others).collect();
-    let record = |[name, symbol, unit]: [&str; 3], chosen: &str, value: Value<'_>| {
+    let record = |[name, symbol, unit]: [&str; 3], chosen: &str, value: ComparedValue<'_>| {
         let head = Record::default().with("quantity", "", name);
         let head = match machine.unit_system {
             UnitSystem::Ratios => head.with("symbol", "", symbol).hidden("unit", unit),
@@ -87,7 +87,7 @@ pub(crate) fn comparison(
     for parameter in machine.parameters() {
         let (name, symbol) = machine.meaning_of(parameter);
         let label = [name, symbol, machine.unit_of(parameter)];
-        let value: Value<'_> = &|machine, _| machine.value(parameter);
+        let value: ComparedValue<'_> = &|machine, _| machine.value(parameter);
         records.push(record(label, &chosen(problem, parameter), value));
         // A preload that is stated as a deflection as a force, too.
         if parameter == Parameter::Preload && machine.preload_deflection.is_some() {

@@ -9,7 +9,7 @@ use softstop_explore::zone::lost_by;
 use crate::design::conflict::bound;
 use crate::design::constraint::Limit;
 use crate::design::figure::Figure;
-use crate::design::search::Found;
+use crate::design::search::SearchResult;
 use crate::design::space::End;
 use crate::design::{Design, Problem};
 
@@ -32,7 +32,7 @@ impl NamedLimit {
 }
 
 /// All that holds a design back.
-pub fn at_limits(problem: &Problem, found: &Found) -> Vec<NamedLimit> {
+pub fn at_limits(problem: &Problem, found: &SearchResult) -> Vec<NamedLimit> {
     let points = problem.operating_points(&found.design);
     let named = found.limits.iter().filter_map(|active| {
         let point = points.iter().find(|it| it.case == active.case)?;

@@ -11,12 +11,12 @@ use softstop_console::table::aligned;
 
 use crate::design::Problem;
 use crate::design::figure::{Figure, Sense};
-use crate::design::judge::Met;
-use crate::design::pareto::{Alternative, Pareto, Tally};
+use crate::design::judge::RequirementValue;
+use crate::design::pareto::{Alternative, FrontTally, Pareto};
 use crate::design::problem::Objective;
 
 /// A quantity of all designs, in the machine's own units.
-struct Column {
+struct FrontColumn {
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
@@ -25,7 +25,7 @@ struct Column {
     values: Vec<Option<f64>>,
 }
 
-impl Column {
+impl FrontColumn {
     fn head(&self) -> String {
         match self.unit {
             "" => self.name.to_owned(),
@@ -40,7 +40,7 @@ pub struct FrontReport {
     /// What is sought.
     objectives: Vec<Record>,
     #[serde(flatten)]
-    tally: Tally,
+    tally: FrontTally,
     /// Machines within the tolerances that were looked at about each design.
     #[serde(skip_serializing_if = "Option::is_none")]
     machines: Option<usize>,
@@ -82,7 +82,7 @@ impl FrontReport {
             })
         };
         let records: Vec<Record> = (0..points.len()).map(record).collect();
-        let heads = columns.iter().map(Column::head);
+        let heads = columns.iter().map(FrontColumn::head);
         let heads = ["number".to_owned()].into_iter().chain(heads).collect();
         let sought = objectives.iter().map(|it| sought(problem, it));
         Self {
@@ -129,8 +129,8 @@ impl FrontReport {
 }
 
 /// What became of the problems of a front, in a sentence.
-pub(crate) fn format_tally(tally: &Tally) -> String {
-    let Tally {
+pub(crate) fn format_tally(tally: &FrontTally) -> String {
+    let FrontTally {
         problems,
         solved,
         implied,
@@ -163,10 +163,10 @@ fn sought(problem: &Problem, objective: &Objective) -> Record {
 }
 
 /// What is sought, the searched parameters and the others, and all figures that take no trials; trials that are required.
-fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
+fn columns(problem: &Problem, front: &Pareto) -> Vec<FrontColumn> {
     let (machine, points) = (&problem.machine, &front.points);
     let objectives = &front.objectives;
-    let figure = |figure: Figure, is_shown: bool, values: Vec<f64>| Column {
+    let figure = |figure: Figure, is_shown: bool, values: Vec<f64>| FrontColumn {
         name: figure.name(),
         meaning: figure.meaning(),
         unit: machine.unit(figure.dimension()),
@@ -186,7 +186,7 @@ fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
     };
     let parameter = |parameter: Parameter| {
         let value = |it: &Alternative| it.found.design.machine.value(parameter);
-        Column {
+        FrontColumn {
             name: machine.name(parameter),
             meaning: machine.meaning_of(parameter).0,
             unit: machine.unit_of(parameter),
@@ -212,10 +212,10 @@ fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
     let trials = trials.filter(|(_, it)| it.requirement.figure.is_trial());
     let trials = trials.map(|(index, it)| {
         let values = points.iter().map(|point| point.met.get(index));
-        let values = values.map(|it| it.map_or(f64::NAN, Met::judged));
+        let values = values.map(|it| it.map_or(f64::NAN, RequirementValue::judged));
         figure(it.requirement.figure, false, values.collect())
     });
-    let violating = front.machines.map(|_| Column {
+    let violating = front.machines.map(|_| FrontColumn {
         name: "violating",
         meaning: "share of machines that lose the motion or violate a requirement",
         unit: "",
@@ -224,18 +224,19 @@ fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
     });
     let parameters = parameters.into_iter().map(parameter);
     let all = sought.chain(parameters).chain(others).chain(trials);
-    let has_values = |it: &Column| it.values.iter().any(Option::is_some);
+    let has_values = |it: &FrontColumn| it.values.iter().any(Option::is_some);
     all.filter(has_values).chain(violating).collect()
 }
 
 /// The shown columns, a line for each design.
-fn table(columns: &[Column], count: usize, nearest: usize) -> String {
-    let shown: Vec<&Column> = columns.iter().filter(|it| it.is_shown).collect();
+fn table(columns: &[FrontColumn], count: usize, nearest: usize) -> String {
+    let shown: Vec<&FrontColumn> = columns.iter().filter(|it| it.is_shown).collect();
     let heads = shown.iter().map(|it| it.head());
     let heads = ["number".to_owned()].into_iter().chain(heads).collect();
     let line = |index: usize| {
         let mark = if index == nearest { "* " } else { "" };
-        let value = |it: &&Column| it.values[index].map_or_else(String::new, |it| Seven.format(it));
+        let value =
+            |it: &&FrontColumn| it.values[index].map_or_else(String::new, |it| Seven.format(it));
         let values = shown.iter().map(value);
         let number = format!("{mark}{}", index + 1);
         [number].into_iter().chain(values).collect()

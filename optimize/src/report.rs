@@ -20,12 +20,12 @@ use crate::design::{Design, Problem};
 use crate::limits::{NamedLimit, at_limits};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
-use crate::optimize::study::Study;
+use crate::optimize::study::ToleranceStudy;
 use crate::optimize::title::{Source, Title};
 use crate::page::figure::Figure;
 use crate::pareto::FrontReport;
 use crate::searched::SearchReport;
-use crate::tolerated::Tolerated;
+use crate::tolerated::ToleranceReport;
 use crate::{cases, placed, started, verdict};
 
 /// What `softstop optimize` reports and writes.
@@ -67,7 +67,7 @@ pub struct OptimizeReport {
     pub(crate) pareto: Option<FrontReport>,
     /// Its machines within the tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
-    tolerances: Option<Tolerated>,
+    tolerances: Option<ToleranceReport>,
     /// Ways to run the machine up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     run_up: Vec<Record>,
@@ -106,7 +106,7 @@ impl OptimizeReport {
         problem: &Problem,
         outcome: &Outcome,
         references: &[Reference],
-        study: Option<&Study>,
+        study: Option<&ToleranceStudy>,
         evaluations: u64,
     ) -> Self {
         let solution = &outcome.solution;
@@ -154,7 +154,7 @@ impl OptimizeReport {
                 .pareto
                 .as_ref()
                 .map(|it| FrontReport::new(problem, it)),
-            tolerances: study.map(|it| Tolerated::of(problem, design, it)),
+            tolerances: study.map(|it| ToleranceReport::of(problem, design, it)),
             run_up: ways.collect(),
             proof: None,
             left_out: left_out(design),

@@ -47,10 +47,10 @@ fn short_name(parameter: Parameter) -> String {
     }
 }
 
-type Searched<'a> = (&'a Problem, &'a Axis);
+type AxisRow<'a> = (&'a Problem, &'a Axis);
 
-fn columns<'a>() -> [Column<Searched<'a>>; 7] {
-    columns! { Searched<'a>, (problem, axis);
+fn columns<'a>() -> [Column<AxisRow<'a>>; 7] {
+    columns! { AxisRow<'a>, (problem, axis);
         "parameter" [None] Plain, "its key in the machine's file" => problem.machine.name(axis.parameter);
         "name" [None] Plain, "its name in figures of rivals" => axis.parameter.name();
         "meaning" [None] Plain, "what it is" => problem.machine.meaning_of(axis.parameter).0;

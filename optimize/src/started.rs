@@ -8,11 +8,11 @@ use softstop_dynamics::run_up::{Attempt, RunUp, RunUpPeaks, Way};
 
 use crate::page::quantity;
 
-type Tried<'a> = (&'a Machine, &'a RunUp, &'a Attempt);
+type AttemptRow<'a> = (&'a Machine, &'a RunUp, &'a Attempt);
 
 /// What came of a way of a machine.
-pub(crate) fn columns<'a>() -> [Column<Tried<'a>>; 8] {
-    columns! { Tried<'a>, (machine, run_up, attempt);
+pub(crate) fn columns<'a>() -> [Column<AttemptRow<'a>>; 8] {
+    columns! { AttemptRow<'a>, (machine, run_up, attempt);
         "way" [None] Plain, "what is done" => attempt.way.name();
         "reaches" [None] Plain, "whether the machine then moves as designed" => attempt.share == 1.0;
         "share" [None], "share of the runs that end on the motion" => attempt.share;

@@ -12,13 +12,13 @@ use softstop_explore::zone::lost_by;
 
 use crate::design::figure::Figure;
 use crate::design::{Design, Problem};
-use crate::optimize::study::{Study, Without};
+use crate::optimize::study::{DesignWithoutTolerances, ToleranceStudy};
 use crate::page::capital;
-use crate::robust::{Index, Manifold, Nearest};
+use crate::robust::{Manifold, Nearest, SobolIndex};
 
 /// The machines within the tolerances of a design.
 #[derive(Debug, Serialize)]
-pub(crate) struct Tolerated {
+pub(crate) struct ToleranceReport {
     /// All of them.
     machines: Record,
     /// Where the motion is lost as all tolerances grow, the nearest first.
@@ -33,8 +33,8 @@ pub(crate) struct Tolerated {
     price: Option<String>,
 }
 
-fn machines<'a>() -> [Column<(&'a Study, &'a Design)>; 6] {
-    columns! { (&'a Study, &'a Design), (study, design);
+fn machines<'a>() -> [Column<(&'a ToleranceStudy, &'a Design)>; 6] {
+    columns! { (&'a ToleranceStudy, &'a Design), (study, design);
         "looked_at" [None] Plain, "machines looked at" => study.verdict.machines;
         "lost" [None] Plain, "machines that lose the motion" => study.verdict.drawing.lost;
         "nominal" [Velocity] Six, "before-impact velocity of the design" => design.before_impact_velocity();
@@ -45,8 +45,8 @@ fn machines<'a>() -> [Column<(&'a Study, &'a Design)>; 6] {
 }
 
 /// Of machines with normal tolerances.
-fn counted<'a>() -> [Column<(&'a Study, &'a Problem)>; 6] {
-    columns! { (&'a Study, &'a Problem), (study, problem);
+fn counted<'a>() -> [Column<(&'a ToleranceStudy, &'a Problem)>; 6] {
+    columns! { (&'a ToleranceStudy, &'a Problem), (study, problem);
         "rejected" [None] Plain, "machines that lose the motion or violate a requirement" => study.verdict.rejected;
         "share_rejected" [None] Six, "their share" => study.verdict.rejected_share();
         "interval_low" [None] Six, "lower end of its 95 % interval" => study.verdict.share_rejected()[0];
@@ -67,7 +67,7 @@ fn manifolds() -> [Column<Nearest>; 2] {
 }
 
 /// A tolerance of a design's machine, and what it does.
-struct Effect<'a> {
+struct ToleranceEffect<'a> {
     machine: &'a Machine,
     parameter: Parameter,
     /// In the machine's own units.
@@ -77,12 +77,12 @@ struct Effect<'a> {
     to_fold: Option<f64>,
     to_free: Option<f64>,
     /// Sobol indices of the velocity and of the place in the zone.
-    indices: Option<[Index; 2]>,
+    indices: Option<[SobolIndex; 2]>,
 }
 
-impl<'a> Effect<'a> {
+impl<'a> ToleranceEffect<'a> {
     /// What each tolerance of a study does, about a design of the problem with tolerances as they are stated.
-    fn all(built: &Problem, machine: &'a Machine, study: &Study) -> Vec<Self> {
+    fn all(built: &Problem, machine: &'a Machine, study: &ToleranceStudy) -> Vec<Self> {
         let effects = &study.sensitivities;
         let own = |by: f64| machine.to_own(Dimension::Frequency, by);
         let tolerances = study.tolerances.iter().enumerate();
@@ -102,8 +102,8 @@ impl<'a> Effect<'a> {
     }
 }
 
-fn parameters<'a>() -> [Column<Effect<'a>>; 11] {
-    columns! { Effect<'a>, it;
+fn parameters<'a>() -> [Column<ToleranceEffect<'a>>; 11] {
+    columns! { ToleranceEffect<'a>, it;
         "parameter" [None] Plain, "which" => it.machine.name(it.parameter);
         "meaning" [None], "what it is" => it.machine.meaning_of(it.parameter).0;
         "unit" [None], "unit of value and tolerance" => it.machine.unit_of(it.parameter);
@@ -118,8 +118,8 @@ fn parameters<'a>() -> [Column<Effect<'a>>; 11] {
     }
 }
 
-fn withouts() -> [Column<Without>; 4] {
-    columns! { Without, it;
+fn withouts() -> [Column<DesignWithoutTolerances>; 4] {
+    columns! { DesignWithoutTolerances, it;
         "velocity" [None] Six, "before-impact velocity" => it.design.before_impact_velocity();
         "machines" [None] Six, "machines within the tolerances" => it.verdict.machines;
         "lost" [None] Six, "that lose the motion" => it.verdict.drawing.lost;
@@ -129,7 +129,12 @@ fn withouts() -> [Column<Without>; 4] {
 
 /// What the tolerances cost: what is sought, and the velocity in the worst machine, of the best design without them and of the
 /// one with them.
-fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -> String {
+fn price(
+    problem: &Problem,
+    design: &Design,
+    study: &ToleranceStudy,
+    without: &DesignWithoutTolerances,
+) -> String {
     let machine = &design.machine;
     let unit = machine.unit(Dimension::Velocity);
     let own = |velocity| Six.format(machine.to_own(Dimension::Velocity, velocity));
@@ -169,9 +174,9 @@ fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -
     told.replace("  ", " ") + "."
 }
 
-impl Tolerated {
+impl ToleranceReport {
     /// Those of a study.
-    pub(crate) fn of(problem: &Problem, design: &Design, study: &Study) -> Self {
+    pub(crate) fn of(problem: &Problem, design: &Design, study: &ToleranceStudy) -> Self {
         let built = problem.as_built();
         let without = study.without.as_ref();
         let rejected = match problem.has_normal_tolerances() {
@@ -186,7 +191,10 @@ impl Tolerated {
         Self {
             machines: Record::of(&machines(), &(study, design)).and(rejected),
             manifolds: Record::all(&manifolds(), &study.nearest[0]),
-            parameters: Record::all(&parameters(), &Effect::all(&built, &design.machine, study)),
+            parameters: Record::all(
+                &parameters(),
+                &ToleranceEffect::all(&built, &design.machine, study),
+            ),
             without: without.map(|it| Record::of(&withouts(), it)),
             price: without.map(|it| price(problem, design, study, it)),
         }

@@ -10,10 +10,10 @@ use crate::design::case::DRAWING;
 use crate::design::conflict::bound;
 use crate::design::figure::Figure;
 use crate::design::front::Front;
-use crate::design::judge::Met;
+use crate::design::judge::RequirementValue;
 use crate::design::{Design, Problem};
 
-type Required<'a> = (&'a Machine, &'a Met);
+type Required<'a> = (&'a Machine, &'a RequirementValue);
 
 fn columns<'a>() -> [Column<Required<'a>>; 10] {
     columns! { Required<'a>, (machine, met);
@@ -31,7 +31,7 @@ fn columns<'a>() -> [Column<Required<'a>>; 10] {
 }
 
 /// A requirement and what a design of this machine has of it; in which operating point, if there are cases.
-pub(crate) fn required(problem: &Problem, machine: &Machine, met: &Met) -> Record {
+pub(crate) fn required(problem: &Problem, machine: &Machine, met: &RequirementValue) -> Record {
     let own = Record::of(&columns(), &(machine, met));
     let case = met.case.map_or(DRAWING, |index| &problem.cases[index].name);
     match problem.cases.is_empty() {
@@ -41,7 +41,7 @@ pub(crate) fn required(problem: &Problem, machine: &Machine, met: &Met) -> Recor
 }
 
 /// A value of a requirement in the machine's own units; none where nothing bounds it.
-fn own_of(machine: &Machine, met: &Met, value: f64) -> Option<f64> {
+fn own_of(machine: &Machine, met: &RequirementValue, value: f64) -> Option<f64> {
     let dimension = met.requirement.figure.dimension();
     value.is_finite().then(|| machine.to_own(dimension, value))
 }
@@ -61,10 +61,10 @@ pub(crate) fn rival(problem: &Problem, design: &Design) -> Record {
     head.with(figure.name(), figure.meaning(), value)
 }
 
-type Traded<'a> = (&'a Problem, &'a Front);
+type TradedRow<'a> = (&'a Problem, &'a Front);
 
-fn trades<'a>() -> [Column<Traded<'a>>; 6] {
-    columns! { Traded<'a>, (problem, front);
+fn trades<'a>() -> [Column<TradedRow<'a>>; 6] {
+    columns! { TradedRow<'a>, (problem, front);
         "figure" [None], "what is traded" => front.figure.name();
         "unit" [None], "its unit" => problem.machine.unit(front.figure.dimension());
         "left_out" [None], "designs that fail a trial or lose machines" => front.left_out;

@@ -11,8 +11,8 @@ use softstop_dynamics::zone::ZoneKind;
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
-use softstop_optimize::design::search::{SearchError, Settings, Unwatched, search};
-use softstop_optimize::design::solution::{Beside, Solution};
+use softstop_optimize::design::search::{SearchError, SearchSettings, Unmonitored, search};
+use softstop_optimize::design::solution::{SideTasks, Solution};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, verify};
@@ -21,16 +21,16 @@ use crate::Outcome;
 pub(crate) use random_task::PRESS;
 use random_task::{Numbers, task};
 
-const SETTINGS: Settings = Settings { evaluations: 1200 };
+const SETTINGS: SearchSettings = SearchSettings { evaluations: 1200 };
 
 /// No machine of some thousand within the tolerances loses the motion or violates a requirement.
 fn assert_holds(problem: &Problem, design: &Design, machines: usize) -> Outcome {
     let Some(spread) = problem.spread(&design.machine) else {
         return Ok(());
     };
-    let settings = robust::Settings {
+    let settings = robust::VerifySettings {
         machines,
-        ..robust::Settings::default()
+        ..robust::VerifySettings::default()
     };
     let required = problem.requirements.iter().copied();
     let required: Vec<Requirement> = required.filter(Requirement::is_of_each_motion).collect();
@@ -75,17 +75,17 @@ const ROUNDING: f64 = 1e-9;
 /// Trade-offs take most of the time: one task of so many has them.
 fn nothing_contradicts(
     seeds: std::ops::Range<u64>,
-    settings: Settings,
+    settings: SearchSettings,
     with_fronts: u64,
 ) -> Outcome {
     for seed in seeds {
         let problem = task(seed);
-        let beside = Beside {
+        let beside = SideTasks {
             relaxed: true,
             fronts: seed.is_multiple_of(with_fronts),
-            ..Beside::default()
+            ..SideTasks::default()
         };
-        let solution = match Solution::of(&problem, settings, beside, (&Unwatched, None)) {
+        let solution = match Solution::of(&problem, settings, beside, (&Unmonitored, None)) {
             Err(SearchError::NoDesign { .. }) => continue,
             solution => solution?,
         };
@@ -98,7 +98,7 @@ fn nothing_contradicts(
 
 #[test]
 fn nothing_beside_a_design_contradicts_it() -> Outcome {
-    nothing_contradicts(0..10, Settings { evaluations: 200 }, 5)
+    nothing_contradicts(0..10, SearchSettings { evaluations: 200 }, 5)
 }
 
 #[test]
@@ -162,12 +162,12 @@ fn no_other_search_finds_better_designs() -> Outcome {
             requirement.scope = Scope::Drawing;
         }
         let value = |evaluations| {
-            let beside = Beside {
+            let beside = SideTasks {
                 relaxed: true,
-                ..Beside::default()
+                ..SideTasks::default()
             };
-            let settings = Settings { evaluations };
-            let found = Solution::of(&problem, settings, beside, (&Unwatched, None));
+            let settings = SearchSettings { evaluations };
+            let found = Solution::of(&problem, settings, beside, (&Unmonitored, None));
             found.map_or(0.0, |it| it.found.design.value)
         };
         let (own, more) = (value(1200), value(12_000));
@@ -220,7 +220,12 @@ fn no_design_stands_where_the_end_of_its_zone_leaps() -> Outcome {
             ],
         )
     };
-    let found = search(&problem, Settings { evaluations: 300 }, &Unwatched, None)?;
+    let found = search(
+        &problem,
+        SearchSettings { evaluations: 300 },
+        &Unmonitored,
+        None,
+    )?;
     let worst = problem.worst_of_required(&found.design);
     let share = worst[0].2.value / 507_385.164_101_511_7;
     assert!(found.residue < 1e-6, "{}", found.residue);

@@ -11,9 +11,11 @@ use softstop_dynamics::zone::{ZoneKind, hysteresis};
 use softstop_dynamics::{Orbit, Zone};
 use softstop_optimize::design::case::Case;
 use softstop_optimize::design::constraint::{ActiveLimit, Limit};
-use softstop_optimize::design::judge::Met;
+use softstop_optimize::design::judge::RequirementValue;
 use softstop_optimize::design::requirement::Requirement;
-use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
+use softstop_optimize::design::search::{
+    SearchError, SearchResult, SearchSettings, Unmonitored, search,
+};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_testing::number;
@@ -21,7 +23,7 @@ use softstop_testing::number;
 use crate::Outcome;
 use crate::report::{Written, design};
 
-const SETTINGS: Settings = Settings { evaluations: 300 };
+const SETTINGS: SearchSettings = SearchSettings { evaluations: 300 };
 const MARGIN: f64 = 0.2;
 
 /// The paper's machine with its stop, over the clearance.
@@ -55,8 +57,8 @@ fn damped(weight: f64) -> Problem {
     Problem { cases, ..problem }
 }
 
-fn solve(problem: &Problem) -> Result<Found, SearchError> {
-    search(problem, SETTINGS, &Unwatched, None)
+fn solve(problem: &Problem) -> Result<SearchResult, SearchError> {
+    search(problem, SETTINGS, &Unmonitored, None)
 }
 
 #[test]
@@ -236,7 +238,7 @@ fn trials_are_made_in_every_case() -> Outcome {
     let found = solve(&problem)?;
     let cases: Vec<Option<usize>> = found.tried.iter().map(|it| it.case).collect();
     assert_eq!(cases, [None, Some(0)]);
-    assert!(found.tried.iter().all(Met::is_met));
+    assert!(found.tried.iter().all(RequirementValue::is_met));
     Ok(())
 }
 

@@ -5,10 +5,10 @@ use softstop::internals::Expression;
 use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::cost::{Cost, Term};
-use softstop_optimize::design::critical::{CriticalMachines, Extreme, Target};
+use softstop_optimize::design::critical::{Criterion, CriticalMachines, ExtremeMachine};
 use softstop_optimize::design::figure::{Figure, Sense};
-use softstop_optimize::design::local::{Local, local};
-use softstop_optimize::design::operating_point::At;
+use softstop_optimize::design::local::{LocalModel, local};
+use softstop_optimize::design::operating_point::SearchPoint;
 use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::slope::Slope;
@@ -129,8 +129,8 @@ fn tolerances() -> Vec<Tolerance> {
 
 /// A direction to the fold, and machines that are extreme in a figure.
 fn known() -> CriticalMachines {
-    let extreme = |figure: &Figure| Extreme {
-        target: Target::Bound(*figure, Sense::Least),
+    let extreme = |figure: &Figure| ExtremeMachine {
+        target: Criterion::Bound(*figure, Sense::Least),
         at: vec![1.0, -1.0, 0.7, 0.02],
     };
     CriticalMachines {
@@ -140,10 +140,10 @@ fn known() -> CriticalMachines {
     }
 }
 
-fn at(problem: &Problem, known: &CriticalMachines, coordinates: &[f64]) -> Option<Local> {
+fn at(problem: &Problem, known: &CriticalMachines, coordinates: &[f64]) -> Option<LocalModel> {
     let (place, unit) = coordinates.split_last()?;
     let moved: Vec<usize> = (0..unit.len()).collect();
-    let at = At {
+    let at = SearchPoint {
         unit,
         moved: &moved,
         place: Some(*place),
@@ -160,7 +160,7 @@ fn values(problem: &Problem, known: &CriticalMachines, coordinates: &[f64]) -> O
     Some(all(&found).map(|it| it.value).collect())
 }
 
-fn all(found: &Local) -> impl Iterator<Item = &Slope> {
+fn all(found: &LocalModel) -> impl Iterator<Item = &Slope> {
     let first = [&found.scores[0].own].into_iter();
     first.chain(found.constraints.iter().map(|it| &it.slope))
 }

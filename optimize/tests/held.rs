@@ -6,9 +6,9 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::zone;
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::figure::Figure;
-use softstop_optimize::design::judge::{Judged, Met};
+use softstop_optimize::design::judge::{RequirementValue, ZoneMotion};
 use softstop_optimize::design::requirement::Requirement;
-use softstop_optimize::design::search::{Settings, Unwatched, search};
+use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_testing::docs;
 
@@ -23,13 +23,13 @@ const COARSE: Size = (48, 33);
 const DENSE: Size = (480, 401);
 
 /// What is sought over the clearance and the place in the zone.
-struct Held {
+struct ActiveLimits {
     name: &'static str,
     problem: Problem,
     range: Interval,
 }
 
-impl Held {
+impl ActiveLimits {
     fn new(
         name: &'static str,
         machine: Machine,
@@ -65,10 +65,10 @@ impl Held {
                     .ok()
                     .filter(|orbit| orbit.is_stable())?;
                 Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
-                let motion = Judged::new(&machine, &zone, place, &orbit).ok()?;
+                let motion = ZoneMotion::new(&machine, &zone, place, &orbit).ok()?;
                 let met = problem.met(&motion);
                 met.iter()
-                    .all(Met::is_met)
+                    .all(RequirementValue::is_met)
                     .then(|| problem.sought(&motion))?
             };
             (0..places).filter_map(value).max_by(f64::total_cmp)
@@ -80,8 +80,8 @@ impl Held {
     /// No point of a grid is better than the optimum, and the best of them comes near.
     #[track_caller]
     fn holds(&self, size: Size) -> Outcome {
-        let settings = Settings { evaluations: 300 };
-        let found = search(&self.problem, settings, &Unwatched, None)?;
+        let settings = SearchSettings { evaluations: 300 };
+        let found = search(&self.problem, settings, &Unmonitored, None)?;
         let (name, value, grid) = (self.name, found.design.value, self.on_grid(size));
         println!(
             "{name}: optimum {value}, best of {size:?} points {grid}, {:e} less",
@@ -107,19 +107,19 @@ fn margin_sn(least: f64) -> Requirement {
     Requirement::at_least(Figure::FrequencySn, least)
 }
 
-fn ratios() -> Outcome<Vec<Held>> {
+fn ratios() -> Outcome<Vec<ActiveLimits>> {
     let range = Interval::new(4.0, 20.0);
     let mut all = Vec::new();
     for name in ["unloaded", "loaded"] {
         let machine = Machine::named(name).ok_or("the paper's machine")?;
         let required = [margin_sn(0.05), stop_force(85.0)];
-        all.push(Held::new(name, machine.clone(), range, 0.25, &[]));
-        all.push(Held::new(name, machine, range, 0.0, &required));
+        all.push(ActiveLimits::new(name, machine.clone(), range, 0.25, &[]));
+        all.push(ActiveLimits::new(name, machine, range, 0.0, &required));
     }
     Ok(all)
 }
 
-fn stops() -> Outcome<Vec<Held>> {
+fn stops() -> Outcome<Vec<ActiveLimits>> {
     let range = Interval::new(4.0, 20.0);
     let stops: [&[(&str, &'static str)]; 3] = [
         &[("stop.model", "kelvinVoigt"), ("stop.stiffness", "20")],
@@ -133,7 +133,7 @@ fn stops() -> Outcome<Vec<Held>> {
     let held = stops.into_iter().map(|stop| {
         let mut machine = Machine::named("unloaded").ok_or("the paper's machine")?;
         machine.apply(stop.iter().copied())?;
-        Ok(Held::new(
+        Ok(ActiveLimits::new(
             stop[0].1,
             machine,
             range,
@@ -144,11 +144,17 @@ fn stops() -> Outcome<Vec<Held>> {
     held.collect()
 }
 
-fn press() -> Outcome<Held> {
+fn press() -> Outcome<ActiveLimits> {
     let range = Interval::new(0.006, 0.04);
     let requirements = [margin_sn(3.0), stop_force(4.8e5)];
     let machine = Machine::from_toml(&std::fs::read_to_string(docs("press/press.toml"))?)?;
-    Ok(Held::new("press", machine, range, 0.0, &requirements))
+    Ok(ActiveLimits::new(
+        "press",
+        machine,
+        range,
+        0.0,
+        &requirements,
+    ))
 }
 
 #[test]

@@ -4,7 +4,9 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use argmin::core::Executor;
 use argmin::solver::neldermead::NelderMead;
 use softstop::{Machine, Parameter, Units};
-use softstop_optimize::design::search::{SearchError, Settings, Unwatched, Watch, search};
+use softstop_optimize::design::search::{
+    SearchError, SearchMonitor, SearchSettings, Unmonitored, search,
+};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_testing::tolerance::{MOTION, printed};
@@ -44,7 +46,7 @@ fn deflected() -> Machine {
 }
 
 fn solve(problem: &Problem, evaluations: u64) -> Result<Design, SearchError> {
-    search(problem, Settings { evaluations }, &Unwatched, None).map(|found| found.design)
+    search(problem, SearchSettings { evaluations }, &Unmonitored, None).map(|found| found.design)
 }
 
 /// `count` points of an interval, both ends among them.
@@ -136,8 +138,8 @@ fn best_stiffness_and_clearance() -> Outcome {
 #[test]
 fn where_the_optimum_jumps_both_ridges_are_told() -> Outcome {
     let found = |margin| {
-        let settings = Settings { evaluations: 400 };
-        search(&problem(margin), settings, &Unwatched, None)
+        let settings = SearchSettings { evaluations: 400 };
+        search(&problem(margin), settings, &Unmonitored, None)
     };
     let clearance = |design: &Design| design.machine.scene.clearance;
     let (before, after) = (found(0.1)?, found(0.11)?);
@@ -187,9 +189,9 @@ fn another_solver_finds_the_same_optimum() -> Outcome {
 #[test]
 fn the_same_task_gives_the_same_design() -> Outcome {
     let problem = over(Interval::new(5.0, 9.0), CLEARANCE, 0.3);
-    let settings = Settings { evaluations: 200 };
-    let first = search(&problem, settings, &Unwatched, None)?.design;
-    let second = search(&problem, settings, &Unwatched, None)?.design;
+    let settings = SearchSettings { evaluations: 200 };
+    let first = search(&problem, settings, &Unmonitored, None)?.design;
+    let second = search(&problem, settings, &Unmonitored, None)?.design;
     assert_eq!(first.machine, second.machine);
     assert_eq!(
         first.before_impact_velocity().to_bits(),
@@ -201,7 +203,7 @@ fn the_same_task_gives_the_same_design() -> Outcome {
 /// Watches nothing, and lets all zones cost so many scan windows.
 struct Within(u64);
 
-impl Watch for Within {
+impl SearchMonitor for Within {
     fn evaluated(&self, _: Option<f64>) {}
     fn stop(&self) -> bool {
         false
@@ -213,7 +215,7 @@ impl Watch for Within {
 
 #[test]
 fn a_search_over_its_budget_has_no_design_whatever_it_met() {
-    let settings = Settings { evaluations: 100 };
+    let settings = SearchSettings { evaluations: 100 };
     let found = |budget| search(&problem(0.3), settings, &Within(budget), None);
     assert!(found(1 << 40).is_ok());
     for budget in [1, 10_000, 1_000_000] {
@@ -329,13 +331,13 @@ fn nothing_feasible_is_an_error_that_says_why() {
 #[test]
 fn a_stopped_search_has_no_result() {
     struct Stop;
-    impl Watch for Stop {
+    impl SearchMonitor for Stop {
         fn evaluated(&self, _: Option<f64>) {}
         fn stop(&self) -> bool {
             true
         }
     }
     let problem = over(STIFFNESS, CLEARANCE, 0.25);
-    let outcome = search(&problem, Settings { evaluations: 2000 }, &Stop, None);
+    let outcome = search(&problem, SearchSettings { evaluations: 2000 }, &Stop, None);
     assert!(matches!(outcome, Err(SearchError::Stopped(_))));
 }

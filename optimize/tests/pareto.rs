@@ -7,17 +7,17 @@ use softstop_dynamics::zone;
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::cost::{Cost, Term};
 use softstop_optimize::design::figure::{Figure, Sense};
-use softstop_optimize::design::judge::{Judged, Met};
+use softstop_optimize::design::judge::{RequirementValue, ZoneMotion};
 use softstop_optimize::design::pareto::Pareto;
 use softstop_optimize::design::problem::{Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
-use softstop_optimize::design::search::{Settings, Unwatched, search};
+use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::robust::Distribution;
 
 use crate::{Outcome, SOFTSTOP};
 
-const SETTINGS: Settings = Settings { evaluations: 400 };
+const SETTINGS: SearchSettings = SearchSettings { evaluations: 400 };
 
 const fn objective(figure: Figure, sense: Sense) -> Objective {
     Objective::new(figure, sense)
@@ -38,8 +38,8 @@ fn problem(traded: Vec<Objective>) -> Outcome<Problem> {
 }
 
 fn front(problem: &Problem) -> Outcome<Pareto> {
-    let found = search(problem, SETTINGS, &Unwatched, None)?;
-    Ok(Pareto::search(problem, &found, (SETTINGS, &Unwatched))?)
+    let found = search(problem, SETTINGS, &Unmonitored, None)?;
+    Ok(Pareto::search(problem, &found, (SETTINGS, &Unmonitored))?)
 }
 
 /// Values by their good side: the more the better.
@@ -60,7 +60,7 @@ fn is_front(problem: &Problem, front: &Pareto) -> Outcome {
         let width = zone.high.frequency - zone.low.frequency;
         let place = (machine.scene.excitation.frequency - zone.low.frequency) / width;
         let orbit = zone.orbit_of(&zone.point_at(place)?)?;
-        let motion = Judged::new(machine, &zone, place, &orbit)?;
+        let motion = ZoneMotion::new(machine, &zone, place, &orbit)?;
         assert!(place > problem.margin - 1e-7 && place < 1.0 - problem.margin + 1e-7);
         for met in problem.met(&motion) {
             let bound = met
@@ -108,10 +108,10 @@ fn grid(problem: &Problem, sizes: [usize; 2]) -> Vec<Vec<f64>> {
                 continue;
             };
             Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
-            let Ok(motion) = Judged::new(&machine, zone, place, &orbit) else {
+            let Ok(motion) = ZoneMotion::new(&machine, zone, place, &orbit) else {
                 continue;
             };
-            if orbit.is_stable() && problem.met(&motion).iter().all(Met::is_met) {
+            if orbit.is_stable() && problem.met(&motion).iter().all(RequirementValue::is_met) {
                 let objectives = problem.objectives();
                 let values = objectives
                     .iter()
@@ -157,7 +157,7 @@ fn the_ends_of_a_front_are_the_designs_by_each_objective_alone() -> Outcome {
             objective: *objective,
             ..problem(Vec::new())?
         };
-        let best = search(&alone, SETTINGS, &Unwatched, None)?.design.value;
+        let best = search(&alone, SETTINGS, &Unmonitored, None)?.design.value;
         for (front, has_it) in [(&found, index < 2), (&three, true)] {
             let values = front.points.iter().filter_map(|it| it.values.get(index));
             let best_of_front = match objective.sense {
@@ -203,7 +203,7 @@ fn a_front_of_three_leaves_no_gap_in_which_single_searches_find_designs() -> Out
             requirements: vec![Requirement::at_least(Figure::Velocity, bound)],
             ..of_three.clone()
         };
-        let best = search(&softest, SETTINGS, &Unwatched, None)?.design.value;
+        let best = search(&softest, SETTINGS, &Unmonitored, None)?.design.value;
         let (least, most) = range(2);
         let is_beside = |values: &[f64]| {
             (values[0] - bound).abs() < 0.12 * (high - low)
@@ -268,7 +268,7 @@ fn a_cost_is_the_value_of_its_formula() -> Outcome {
     let cost = Cost::new(formula, expression, terms.ok_or("names")?);
     let zone = zone::hysteresis(&machine.scene)?;
     let orbit = zone.orbit_of(&zone.point_at(0.5)?)?;
-    let motion = Judged::new(&machine, &zone, 0.5, &orbit)?;
+    let motion = ZoneMotion::new(&machine, &zone, 0.5, &orbit)?;
     let hertz = orbit.scene.excitation.frequency / std::f64::consts::TAU;
     let expected = 120.0 + 1.8 + hertz * 0.002;
     let value = cost.value(motion.orbit, &motion.stroke);

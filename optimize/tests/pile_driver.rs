@@ -5,7 +5,7 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::ZoneKind;
-use softstop_optimize::design::search::{Settings, Unwatched, search};
+use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_testing::assert_near;
@@ -37,8 +37,8 @@ fn whole() -> ZoneKind {
 }
 
 fn solve(problem: &Problem) -> Design {
-    let settings = Settings { evaluations: 200 };
-    let found = search(problem, settings, &Unwatched, None);
+    let settings = SearchSettings { evaluations: 200 };
+    let found = search(problem, settings, &Unmonitored, None);
     found.expect("a design").design
 }
 

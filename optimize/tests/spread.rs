@@ -6,7 +6,9 @@ use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{Loss, hysteresis};
 use softstop_dynamics::{BranchLimits, Continuation, Orbit};
 use softstop_optimize::robust::Distribution;
-use softstop_optimize::spread::{AbsoluteTolerance, PolynomialModel, Settled, Tolerances, along};
+use softstop_optimize::spread::{
+    AbsoluteTolerance, PolynomialModel, StableMotion, Tolerances, along,
+};
 use softstop_testing::assert_relative;
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -66,9 +68,9 @@ fn what_settles_is_the_orbit() -> Outcome {
         let (spread, nominal) = spread(ratios, 0.01)?;
         for to in [[0.0, 0.0], [1.0, -1.0], [-0.3, 0.8]] {
             let scene = spread.scene(&to);
-            let settled = Settled::near(&scene, nominal.state(), 1.0).ok_or("a motion")?;
+            let settled = StableMotion::near(&scene, nominal.state(), 1.0).ok_or("a motion")?;
             let is_away = to != [0.0, 0.0];
-            let near = Settled::near(&scene, nominal.state(), 1e-9);
+            let near = StableMotion::near(&scene, nominal.state(), 1e-9);
             assert_eq!(near.is_none(), is_away, "no farther than told");
             let orbit = Orbit::find_near(&scene, nominal.state())?;
             let velocity = orbit.before_impact_velocity();

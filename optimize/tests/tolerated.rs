@@ -6,17 +6,19 @@ use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone;
 use softstop_optimize::design::constraint::Limit;
 use softstop_optimize::design::figure::Figure;
-use softstop_optimize::design::judge::{Judged, Met};
+use softstop_optimize::design::judge::{RequirementValue, ZoneMotion};
 use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
-use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
+use softstop_optimize::design::search::{
+    SearchError, SearchResult, SearchSettings, Unmonitored, search,
+};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, Norm, nearest, verify};
 
 use crate::Outcome;
 
-const SETTINGS: Settings = Settings { evaluations: 300 };
+const SETTINGS: SearchSettings = SearchSettings { evaluations: 300 };
 
 /// A machine whose hysteresis zone has a second pair of folds: above 1.364 a motion of more than twice the velocity.
 fn two_folds() -> Outcome<Machine> {
@@ -52,7 +54,7 @@ fn above_a_fold(width: f64) -> Outcome<Problem> {
 /// How many of some machines all over the tolerances of a design lose the motion.
 fn lost(problem: &Problem, design: &Design) -> Outcome<usize> {
     let spread = problem.spread(&design.machine).ok_or("tolerances")?;
-    let some = robust::Settings {
+    let some = robust::VerifySettings {
         machines: 4096,
         enough: usize::MAX,
         first: 0,
@@ -103,9 +105,9 @@ fn no_machine_is_lost_to_a_fold_inside_the_zone() -> Outcome {
         tolerances: Vec::new(),
         ..problem.clone()
     };
-    let without = search(&exact, SETTINGS, &Unwatched, None)?.design;
+    let without = search(&exact, SETTINGS, &Unmonitored, None)?.design;
     assert!(lost(&problem, &without)? > 400, "the search must give way");
-    let Found { design, limits, .. } = search(&problem, SETTINGS, &Unwatched, None)?;
+    let SearchResult { design, limits, .. } = search(&problem, SETTINGS, &Unmonitored, None)?;
     assert_eq!(lost(&problem, &design)?, 0);
     let factor_of_design = factor(&problem, &design)?;
     assert!(factor_of_design > 1.0 - 1e-6, "{factor_of_design}");
@@ -124,7 +126,7 @@ fn tolerances_that_no_design_has_are_told_with_how_much_is_lacking() -> Outcome 
     let mut problem = above_a_fold(4.0)?;
     problem.frequency.low = 1.366;
     problem.axes[0].range = Interval::new(2.49, 2.51);
-    let found = search(&problem, SETTINGS, &Unwatched, None);
+    let found = search(&problem, SETTINGS, &Unmonitored, None);
     let Err(SearchError::NoDesign { reason, .. }) = found else {
         return Err(format!("{found:?}").into());
     };
@@ -150,8 +152,8 @@ fn of_catalogues_the_best_of_all_combinations_is_found() -> Outcome {
             ],
         )
     };
-    let few = Settings { evaluations: 100 };
-    let found = search(&problem(&stiffness, &clearance), few, &Unwatched, None)?;
+    let few = SearchSettings { evaluations: 100 };
+    let found = search(&problem(&stiffness, &clearance), few, &Unmonitored, None)?;
     let all = stiffness
         .into_par_iter()
         .flat_map_iter(|k| clearance.map(|rho| [k, rho]));
@@ -172,13 +174,13 @@ fn certainty_is_met_as_hard_as_a_fine_scan_finds() -> Outcome {
         requirements: vec![certainty],
         ..Problem::of(machine, vec![Axis::new(Parameter::Clearance, range)])
     };
-    let found = search(&problem, SETTINGS, &Unwatched, None)?;
+    let found = search(&problem, SETTINGS, &Unmonitored, None)?;
     let resolution = found.resolution.ok_or("trials are in the way")?;
     assert!(resolution.axes < 1e-3 && resolution.place < 1e-3);
     let passes = |design: &Design| {
         problem
             .tried(design)
-            .is_ok_and(|all| all.iter().all(Met::is_met))
+            .is_ok_and(|all| all.iter().all(RequirementValue::is_met))
     };
     assert!(passes(&found.design));
     for index in 0..9 {
@@ -186,7 +188,7 @@ fn certainty_is_met_as_hard_as_a_fine_scan_finds() -> Outcome {
         let zone = zone::hysteresis(&machine.scene)?;
         for place in (0..32).map(|index| f64::from(index) / 32.0) {
             let orbit = zone.orbit_at(place)?;
-            let motion = Judged::new(&machine, &zone, place, &orbit)?;
+            let motion = ZoneMotion::new(&machine, &zone, place, &orbit)?;
             let value = problem.sought(&motion).ok_or("a velocity")?;
             let is_better = value > found.design.value * 1.001 && orbit.is_stable();
             let design = Design {

@@ -8,12 +8,14 @@ use softstop_optimize::design::figure::Figure;
 use softstop_optimize::design::front::front;
 use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
-use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
+use softstop_optimize::design::search::{
+    SearchError, SearchResult, SearchSettings, Unmonitored, search,
+};
 use softstop_optimize::design::space::{Axis, Interval};
 
 use crate::Outcome;
 
-const SETTINGS: Settings = Settings { evaluations: 200 };
+const SETTINGS: SearchSettings = SearchSettings { evaluations: 200 };
 const CLEARANCE: Axis = Axis::new(Parameter::Clearance, Interval::new(5.0, 15.0));
 
 fn problem(axes: Vec<Axis>, certainty: f64) -> Problem {
@@ -25,11 +27,11 @@ fn problem(axes: Vec<Axis>, certainty: f64) -> Problem {
     }
 }
 
-fn solve(problem: &Problem) -> Result<Found, SearchError> {
-    search(problem, SETTINGS, &Unwatched, None)
+fn solve(problem: &Problem) -> Result<SearchResult, SearchError> {
+    search(problem, SETTINGS, &Unmonitored, None)
 }
 
-fn candidate(found: &Found) -> Candidate {
+fn candidate(found: &SearchResult) -> Candidate {
     Candidate {
         unit: found.unit.clone(),
         design: found.design.clone(),

@@ -5,7 +5,7 @@ use std::fs;
 
 use softstop::{Machine, PhaseKind, Release, Scene, Stop};
 use softstop_explore::simulate::name;
-use softstop_explore::stops::stroke::Stroke;
+use softstop_explore::stops::stroke::ContactStroke;
 use softstop_explore::stops::{picture, zoo::ZOO};
 use softstop_testing::{
     assert_near, assert_relative, docs, hertz, is_near, kelvin_voigt, preloaded, slope,
@@ -140,7 +140,7 @@ fn every_example_scene_runs() -> Outcome {
 }
 
 /// Work in J that a stroke leaves in the stop: the area of its loop.
-fn area(stroke: &Stroke) -> f64 {
+fn area(stroke: &ContactStroke) -> f64 {
     let points: Vec<(f64, f64)> = stroke.points().collect();
     let trapezium = |pair: &[(f64, f64)]| 0.5 * (pair[1].0 - pair[0].0) * (pair[1].1 + pair[0].1);
     points.windows(2).map(trapezium).sum()
@@ -148,7 +148,7 @@ fn area(stroke: &Stroke) -> f64 {
 
 /// Kinetic energy in J that a mass of 1 kg loses in a stroke, rebounds included.
 fn lost(name: &str, speed: f64, damped: bool) -> Result<(f64, f64), Box<dyn std::error::Error>> {
-    let stroke = Stroke::new(&scene(name)?, speed, 0.1, damped)?;
+    let stroke = ContactStroke::new(&scene(name)?, speed, 0.1, damped)?;
     let blow = stroke.rebound.map_or(0.0, |wall| {
         0.5 * (wall.before * wall.before - wall.after * wall.after)
     });
@@ -184,7 +184,7 @@ fn elastic_stops_throw_the_mass_back_as_fast_as_it_came() -> Outcome {
         ("hertz.toml", 6.0),
         ("preloaded.toml", 20.0),
     ] {
-        let stroke = Stroke::new(&scene(name)?, speed, 0.1, false)?;
+        let stroke = ContactStroke::new(&scene(name)?, speed, 0.1, false)?;
         let exit = stroke.exit_speed.ok_or("the mass does not come back")?;
         println!("{name}");
         assert_relative(exit, speed, 1e-9);
@@ -262,7 +262,7 @@ fn interference_is_a_start_in_contact() -> Outcome {
 /// suspension's force is small beside the stop's.
 #[test]
 fn great_stiffness_is_a_rigid_stop() -> Outcome {
-    let stroke = Stroke::new(&scene("stiff.toml")?, 6.0, 0.1, true)?;
+    let stroke = ContactStroke::new(&scene("stiff.toml")?, 6.0, 0.1, true)?;
     let exit = stroke.exit_speed.ok_or("the mass does not come back")?;
     // b - b1 is what remains as damping of the stroke.
     let z = (180.0 - 0.04) / 2e3_f64;

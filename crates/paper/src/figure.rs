@@ -33,14 +33,12 @@ pub(crate) struct Figure {
     settings: toml::Table,
 }
 
+/// The figures that the file states, in its order.
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
-    #[derive(Deserialize)]
-    struct File {
-        figure: Vec<Figure>,
-    }
-    let file: File = toml::from_str(include_str!("../../../docs/paper/figures.toml"))
-        .expect("the file that is built in holds figures");
-    file.figure
+    let file: BTreeMap<String, Vec<Figure>> =
+        toml::from_str(include_str!("../../../docs/paper/figures.toml"))
+            .expect("the file that is built in holds figures");
+    file.into_values().flatten().collect()
 });
 
 impl Figure {

@@ -9,7 +9,7 @@ use argmin::core::{CostFunction, Error, Executor, Gradient, Jacobian, Operator};
 use super::Design;
 use super::coordinates::{Candidate, Coordinates, keep_best};
 use super::critical::CriticalMachines;
-use super::local::{Local, local};
+use super::local::{LocalModel, local};
 use super::problem::Problem;
 use super::requirement::Scope;
 use super::slope::{Slope, unit_row};
@@ -46,7 +46,7 @@ pub(super) fn ascend_from(
     known: &CriticalMachines,
     (unit, place): (&[f64], f64),
 ) -> Option<Candidate> {
-    let (mut program, mut start) = Program::new(problem, known, unit, place)?;
+    let (mut program, mut start) = NonlinearProgram::new(problem, known, unit, place)?;
     if start.is_empty() {
         return program.best.into_inner();
     }
@@ -75,7 +75,7 @@ pub(super) fn ascend_from(
 
 /// A nonlinear program: minus the score of the motion at a place of the zone of a machine, in units of the score at the
 /// start, or minus the mean of the levels, and constraints that hold where they are not positive.
-struct Program<'a> {
+struct NonlinearProgram<'a> {
     problem: &'a Problem,
     known: &'a CriticalMachines,
     coordinates: Coordinates,
@@ -84,11 +84,11 @@ struct Program<'a> {
     score: f64,
     constraints: usize,
     /// The last point, for all that a solver asks of it.
-    last: RefCell<(Vec<f64>, Option<Local>)>,
+    last: RefCell<(Vec<f64>, Option<LocalModel>)>,
     best: RefCell<Option<Candidate>>,
 }
 
-impl<'a> Program<'a> {
+impl<'a> NonlinearProgram<'a> {
     /// The program about a point of the unit cube and its start; none if there is no motion.
     fn new(
         problem: &'a Problem,
@@ -155,7 +155,7 @@ impl<'a> Program<'a> {
     }
 
     /// The scores that each level lies below, with its index.
-    fn scores<'b>(&self, of: &'b Local) -> impl Iterator<Item = (usize, &'b Slope)> {
+    fn scores<'b>(&self, of: &'b LocalModel) -> impl Iterator<Item = (usize, &'b Slope)> {
         let points = of.scores.iter().take(self.weights.len()).enumerate();
         points.flat_map(|(index, it)| it.all().map(move |score| (index, score)))
     }
@@ -173,7 +173,7 @@ impl<'a> Program<'a> {
     }
 
     /// Computes what is sought and required at a point, and takes note of its design.
-    fn compute(&self, at: &[f64]) -> Option<Local> {
+    fn compute(&self, at: &[f64]) -> Option<LocalModel> {
         let unit = self.coordinates.unit(at);
         let mut found = local(self.problem, &self.coordinates.at(&unit, at), self.known)?;
         if let Some(design) = found.design.take() {
@@ -185,7 +185,7 @@ impl<'a> Program<'a> {
     }
 
     /// Computes a point once for all that a solver asks of it.
-    fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&Local>) -> T) -> T {
+    fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&LocalModel>) -> T) -> T {
         let at = &at[..self.levels_at(at)];
         let is_last = self.last.borrow().0 == at;
         if !is_last {
@@ -195,12 +195,12 @@ impl<'a> Program<'a> {
     }
 }
 
-impl CostFunction for Program<'_> {
+impl CostFunction for NonlinearProgram<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
     fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
-        let cost = |it: &Local| match self.weights.is_empty() {
+        let cost = |it: &LocalModel| match self.weights.is_empty() {
             true => -it.objective(&self.problem.objective).value / self.score,
             false => -self.mean_level(at).value,
         };
@@ -208,13 +208,13 @@ impl CostFunction for Program<'_> {
     }
 }
 
-impl Gradient for Program<'_> {
+impl Gradient for NonlinearProgram<'_> {
     type Param = Vec<f64>;
     type Gradient = Vec<f64>;
 
     fn gradient(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
         let nowhere = || vec![0.0; at.len()];
-        let gradient = |it: &Local| match self.weights.is_empty() {
+        let gradient = |it: &LocalModel| match self.weights.is_empty() {
             true => scaled(&it.objective(&self.problem.objective), -1.0 / self.score),
             false => {
                 let mut gradient = vec![0.0; self.levels_at(at)];
@@ -226,12 +226,12 @@ impl Gradient for Program<'_> {
     }
 }
 
-impl Operator for Program<'_> {
+impl Operator for NonlinearProgram<'_> {
     type Param = Vec<f64>;
     type Output = Vec<f64>;
 
     fn apply(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
-        let values = |it: &Local| {
+        let values = |it: &LocalModel| {
             let constraints = it.constraints.iter().map(|one| SLACK - one.slope.value);
             let first = self.levels_at(at);
             let above =
@@ -244,7 +244,7 @@ impl Operator for Program<'_> {
     }
 }
 
-impl Jacobian for Program<'_> {
+impl Jacobian for NonlinearProgram<'_> {
     type Param = Vec<f64>;
     type Jacobian = Vec<Vec<f64>>;
 
@@ -253,7 +253,7 @@ impl Jacobian for Program<'_> {
             let levels = unit_row(self.weights.len(), own);
             row.into_iter().chain(levels).collect()
         };
-        let rows = |it: &Local| {
+        let rows = |it: &LocalModel| {
             let constraints = it.constraints.iter();
             let constraints = constraints.map(|one| by_levels(scaled(&one.slope, -1.0), None));
             let scores = self.scores(it);

@@ -16,7 +16,7 @@ use crate::robust::Tolerances;
 
 /// An end of the zone of a corner of the box.
 #[derive(Debug, Clone)]
-pub(super) struct Edge {
+pub(super) struct CornerZoneEnd {
     /// The corner, in coordinates of the box.
     pub corner: Vec<f64>,
     /// The fold there; none at g0.
@@ -36,10 +36,10 @@ const CORNERS: usize = 3;
 pub(super) struct BoxWindow {
     /// g0, which moves one way with each parameter, if the zone begins there. What else it begins with, and a fold at the lower end
     /// of a range, is not known here.
-    pub low: Option<Edge>,
+    pub low: Option<CornerZoneEnd>,
     /// `s_SN`, if the zone ends there, at each corner where it can be the nearest: on both sides of the tolerances along which its normal is small.
     /// Always as many, so that the constraints of a search stay the same.
-    pub high: [Option<Edge>; 1 << DOUBTFUL],
+    pub high: [Option<CornerZoneEnd>; 1 << DOUBTFUL],
 }
 
 impl BoxWindow {
@@ -89,20 +89,20 @@ struct Corners<'a> {
 }
 
 impl Corners<'_> {
-    fn low(&self) -> Result<Edge, Infeasible> {
+    fn low(&self) -> Result<CornerZoneEnd, Infeasible> {
         let centre = vec![0.0; self.spread.dimensions()];
         let normal = free_normal(&self.spread, &centre).map_err(Infeasible::unknown)?;
         let corner: Vec<f64> = normal.iter().map(|part| -part.signum()).collect();
         let (_, above) =
             grazing_frequencies(&self.spread.scene(&corner)).map_err(Infeasible::unknown)?;
-        Ok(Edge {
+        Ok(CornerZoneEnd {
             corner,
             fold: None,
             frequency: self.without_width(above, -1.0),
         })
     }
 
-    fn high(&self, zone: &Zone) -> Result<[Option<Edge>; 1 << DOUBTFUL], Infeasible> {
+    fn high(&self, zone: &Zone) -> Result<[Option<CornerZoneEnd>; 1 << DOUBTFUL], Infeasible> {
         let mut corner = vec![0.0; self.spread.dimensions()];
         let Some(mut fold) = fold_of(zone) else {
             return Ok(std::array::from_fn(|_| None));
@@ -150,7 +150,7 @@ impl Corners<'_> {
                     .point?
                     .0;
             }
-            Some(Edge {
+            Some(CornerZoneEnd {
                 frequency: self.without_width(fold.parameter, 1.0),
                 fold: Some(fold),
                 corner,

@@ -34,7 +34,7 @@ pub(super) struct ShareGoal<'a> {
 /// What is known of a point: the score, in units of that at the start, the share of starts beyond what is asked for, negative also
 /// where that is left out, and how far it is within all else, which is negative beyond that.
 #[derive(Debug, Clone, Copy)]
-struct Sample {
+struct ShareSample {
     score: f64,
     share: f64,
     within: f64,
@@ -49,8 +49,8 @@ pub(super) fn certain(
     let coordinates = Coordinates::new(problem, &from.unit);
     let unit = problem.score(&from.design);
     let best: RefCell<Option<Candidate>> = RefCell::default();
-    let last: RefCell<Option<(Vec<f64>, Sample)>> = RefCell::default();
-    let look = |at: &[f64]| -> Option<Sample> {
+    let last: RefCell<Option<(Vec<f64>, ShareSample)>> = RefCell::default();
+    let look = |at: &[f64]| -> Option<ShareSample> {
         let unit_cube = coordinates.unit(at);
         let design = Design::find(problem, &coordinates.at(&unit_cube, at))?;
         let (design, violation) = goal.known.assess(problem, design, f64::INFINITY)?;
@@ -67,7 +67,7 @@ pub(super) fn certain(
                 share => share,
             },
         };
-        let known = Sample {
+        let known = ShareSample {
             score: score / unit,
             share: share - goal.share,
             within: -outside,
@@ -84,7 +84,7 @@ pub(super) fn certain(
     let known = |at: &[f64]| {
         let is_last = matches!(&*last.borrow(), Some((other, _)) if other == at);
         if !is_last {
-            let found = look(at).unwrap_or(Sample {
+            let found = look(at).unwrap_or(ShareSample {
                 score: 0.0,
                 share: -NOWHERE,
                 within: -NOWHERE,

@@ -3,12 +3,12 @@
 use softstop::internals::budget;
 
 use super::Infeasible;
-use super::check_trials::{Passed, TriedDesigns};
+use super::check_trials::{PassedDesign, TriedDesigns};
 use super::coordinates::SearchStart;
 use super::distant_values::try_distant_values;
 use super::improve_catalogue::CatalogueSearch;
 use super::problem::Problem;
-use super::robustify::Robust;
+use super::robustify::RobustDesign;
 
 /// Designs with other values of catalogues than those of finalists whose trials are made, at most.
 const OTHERS: usize = 2;
@@ -24,10 +24,10 @@ const DISTANT_WINDOWS: u64 = 1 << 31;
 /// What each design lacks if none passes.
 pub(super) fn check_finalists(
     problem: &Problem,
-    finalists: impl IntoIterator<Item = Robust>,
+    finalists: impl IntoIterator<Item = RobustDesign>,
     bound: f64,
     sought_from: &mut Vec<SearchStart>,
-) -> Result<(Passed, Vec<Passed>), Vec<Infeasible>> {
+) -> Result<(PassedDesign, Vec<PassedDesign>), Vec<Infeasible>> {
     let mut tried = TriedDesigns {
         problem,
         bound,

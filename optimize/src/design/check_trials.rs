@@ -3,27 +3,27 @@
 
 use super::Infeasible;
 use super::coordinates::{SearchStart, best_by};
-use super::judge::Met;
+use super::judge::RequirementValue;
 use super::problem::Problem;
-use super::robustify::{Robust, look};
-use super::trial_search::{RESOLUTION, Resolution, Trials};
+use super::robustify::{RobustDesign, look};
+use super::trial_search::{RESOLUTION, Resolution, TrialSearch};
 use crate::order::sort_falling;
 
 /// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
 const ROUNDS: usize = 8;
 
 /// A design that passes its trials.
-pub(super) struct Passed {
-    pub robust: Robust,
+pub(super) struct PassedDesign {
+    pub robust: RobustDesign,
     /// What it has of what is tried.
-    pub tried: Vec<Met>,
+    pub tried: Vec<RequirementValue>,
     /// How fine it was looked for, if it was sought.
     pub resolution: Option<Resolution>,
 }
 
 /// A design that fails its trials.
-pub(super) struct Failed {
-    pub robust: Robust,
+pub(super) struct FailedDesign {
+    pub robust: RobustDesign,
     pub lack: Infeasible,
     /// Whether one that passes was sought from it.
     pub is_sought: bool,
@@ -34,19 +34,19 @@ pub(super) struct TriedDesigns<'a> {
     pub problem: &'a Problem,
     /// The score that a design must exceed.
     pub bound: f64,
-    pub passing: Vec<Passed>,
-    pub failed: Vec<Failed>,
+    pub passing: Vec<PassedDesign>,
+    pub failed: Vec<FailedDesign>,
     /// Places of designs that fail, from which one that passes was sought.
     pub sought_from: &'a mut Vec<SearchStart>,
 }
 
 impl TriedDesigns<'_> {
-    pub fn score(&self, it: &Robust) -> f64 {
+    pub fn score(&self, it: &RobustDesign) -> f64 {
         self.problem.score(&it.candidate.design)
     }
 
     /// The best design that passes.
-    pub fn best(&self) -> Option<&Robust> {
+    pub fn best(&self) -> Option<&RobustDesign> {
         let passing = self.passing.iter().map(|it| &it.robust);
         best_by(passing, |it| self.score(it))
     }
@@ -58,17 +58,17 @@ impl TriedDesigns<'_> {
     }
 
     /// Makes the trials of a design: true if it passes.
-    pub fn try_as_is(&mut self, mut robust: Robust) -> bool {
+    pub fn try_as_is(&mut self, mut robust: RobustDesign) -> bool {
         let design = &robust.candidate.design;
         let passed = self.problem.pass_trials(design, &mut robust.known);
         let is_passed = passed.is_ok();
         match passed {
-            Ok(tried) => self.passing.push(Passed {
+            Ok(tried) => self.passing.push(PassedDesign {
                 robust,
                 tried,
                 resolution: None,
             }),
-            Err(lack) => self.failed.push(Failed {
+            Err(lack) => self.failed.push(FailedDesign {
                 lack: lack.at(&robust.candidate.unit),
                 robust,
                 is_sought: false,
@@ -80,7 +80,7 @@ impl TriedDesigns<'_> {
     /// Seeks one that passes from a design that fails, unless that was done from its place before. Adds its place to those from
     /// which one was sought, unless that ended with machines to take note of: with others known it may end elsewhere.
     pub fn seek_from(&mut self, index: usize) {
-        let Failed {
+        let FailedDesign {
             robust, is_sought, ..
         } = &mut self.failed[index];
         *is_sought = true;
@@ -91,7 +91,7 @@ impl TriedDesigns<'_> {
         }
         let start = from.start();
         for round in 0..ROUNDS {
-            let trials = Trials::new(self.problem, &robust.known);
+            let trials = TrialSearch::new(self.problem, &robust.known);
             let found = match round {
                 0 => trials.best(&from),
                 _ => trials.best_near(&from),
@@ -111,8 +111,8 @@ impl TriedDesigns<'_> {
             if let Ok(tried) = passed {
                 let known = robust.known.clone();
                 self.sought_from.push(start);
-                self.passing.push(Passed {
-                    robust: Robust { candidate, known },
+                self.passing.push(PassedDesign {
+                    robust: RobustDesign { candidate, known },
                     tried,
                     resolution: Some(RESOLUTION),
                 });
@@ -126,13 +126,13 @@ impl TriedDesigns<'_> {
     ///
     /// # Errors
     /// What each design lacks if none passes.
-    pub fn into_passing(mut self) -> Result<(Passed, Vec<Passed>), Vec<Infeasible>> {
+    pub fn into_passing(mut self) -> Result<(PassedDesign, Vec<PassedDesign>), Vec<Infeasible>> {
         if self.passing.is_empty() {
             return Err(self.failed.into_iter().map(|it| it.lack).collect());
         }
         let problem = self.problem;
-        let score = |it: &Robust| problem.score(&it.candidate.design);
-        for Passed {
+        let score = |it: &RobustDesign| problem.score(&it.candidate.design);
+        for PassedDesign {
             robust, resolution, ..
         } in &mut self.passing
         {

@@ -3,14 +3,14 @@
 use softstop::internals::plain_number;
 use softstop::{Dimension, Machine, Parameter};
 
-use super::judge::Met;
+use super::judge::RequirementValue;
 use super::requirement::Requirement;
 
 /// Share of a bound within which a requirement holds a design back.
 const AT_BOUND: f64 = 1e-4;
 
 /// What is violated and by how much, and which bounds stand in the way, in the machine's own units.
-pub fn conflict(machine: &Machine, met: &[Met]) -> String {
+pub fn conflict(machine: &Machine, met: &[RequirementValue]) -> String {
     let violated = met.iter().filter(|it| !it.is_met());
     let violated: Vec<String> = violated.map(|it| words(machine, it)).collect();
     let held = met.iter().filter(|it| {
@@ -26,7 +26,7 @@ pub fn conflict(machine: &Machine, met: &[Met]) -> String {
 }
 
 /// `velocity = 9.8 m/s: must be at least 10 m/s, 0.2 m/s are missing`.
-fn words(machine: &Machine, met: &Met) -> String {
+fn words(machine: &Machine, met: &RequirementValue) -> String {
     let figure = met.requirement.figure;
     let own = |value: f64| format_in_own_unit(machine, figure.dimension(), value);
     let (name, bound) = (figure.name(), bound(machine, &met.requirement));

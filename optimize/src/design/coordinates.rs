@@ -4,7 +4,7 @@ use softstop::Parameter;
 use softstop_dynamics::points::sobol_point;
 
 use super::Design;
-use super::operating_point::At;
+use super::operating_point::SearchPoint;
 use super::problem::Problem;
 use super::slope::unit_row;
 
@@ -181,8 +181,8 @@ impl Coordinates {
     }
 
     /// The same for what computes there.
-    pub(super) fn at<'a>(&'a self, unit: &'a [f64], at: &[f64]) -> At<'a> {
-        At {
+    pub(super) fn at<'a>(&'a self, unit: &'a [f64], at: &[f64]) -> SearchPoint<'a> {
+        SearchPoint {
             unit,
             moved: &self.moved,
             place: at

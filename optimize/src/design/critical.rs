@@ -17,12 +17,12 @@ use super::problem::Problem;
 use super::reach::{reserve, unreached};
 use super::requirement::{Requirement, Scope, sign};
 use super::slope::Slope;
-use super::within::Rows;
+use super::within::ParameterJacobian;
 use crate::robust::{Neighbours, rates};
 
 /// What a machine is extreme in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Target {
+pub enum Criterion {
     /// In what is sought.
     Objective,
     /// In a required figure, on this side.
@@ -31,9 +31,9 @@ pub enum Target {
 
 /// A machine within the tolerances with an extreme figure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Extreme {
+pub struct ExtremeMachine {
     /// In what.
-    pub target: Target,
+    pub target: Criterion,
     /// Its coordinates in the box.
     pub at: Vec<f64>,
 }
@@ -44,7 +44,7 @@ pub struct CriticalMachines {
     /// Directions of the box in which the motion is lost, to whose ends it has to go on, in coordinates of the box.
     pub losses: Vec<Vec<f64>>,
     /// Machines that come nearest to a bound.
-    pub extremes: Vec<Extreme>,
+    pub extremes: Vec<ExtremeMachine>,
     /// Machines on which trials are made beside the drawing's.
     pub tried: Vec<Vec<f64>>,
     /// Trials that better designs have failed.
@@ -61,13 +61,14 @@ const SAME: f64 = 1e-6;
 
 impl CriticalMachines {
     /// Takes note of an extreme machine; false if it is known.
-    pub(super) fn note(&mut self, target: Target, at: &[f64]) -> bool {
-        let is_there = |it: &Extreme| it.at.iter().zip(at).all(|(a, b)| (a - b).abs() < SAME);
+    pub(super) fn note(&mut self, target: Criterion, at: &[f64]) -> bool {
+        let is_there =
+            |it: &ExtremeMachine| it.at.iter().zip(at).all(|(a, b)| (a - b).abs() < SAME);
         let mut known = self.extremes.iter();
         let is_new = known.all(|it| it.target != target || !is_there(it));
         if is_new {
             let at = at.to_vec();
-            self.extremes.push(Extreme { target, at });
+            self.extremes.push(ExtremeMachine { target, at });
         }
         is_new
     }
@@ -151,7 +152,7 @@ impl CriticalMachines {
         };
         let neighbours = Neighbours::new(&spread, &here.orbit);
         violation += unreached(&self.losses, &spread, here, farthest - violation)?;
-        for Extreme { target, at } in &self.extremes {
+        for ExtremeMachine { target, at } in &self.extremes {
             let Some((figure, requirement)) = problem.asked(*target) else {
                 continue;
             };
@@ -180,13 +181,13 @@ impl CriticalMachines {
             found.bounds.push((Limit::Loss, reserve));
         }
         let neighbours = Neighbours::new(&spread, &about.point.orbit);
-        for Extreme { target, at } in &self.extremes {
+        for ExtremeMachine { target, at } in &self.extremes {
             let Some((figure, requirement)) = problem.asked(*target) else {
                 continue;
             };
             let of = slope_at(about, &neighbours, at, figure);
             match (requirement, target) {
-                (Some(requirement), Target::Bound(_, side)) => {
+                (Some(requirement), Criterion::Bound(_, side)) => {
                     let bound = Limit::Required(figure, *side);
                     let mut sides = requirement.sides().filter(|(own, _)| own == side);
                     let (limit, slope) = match of {
@@ -217,13 +218,13 @@ pub(super) struct CriticalSlopes {
 
 impl Problem {
     /// The figure of a target, and the requirement if it is one; none if the problem does not ask for it.
-    pub(super) fn asked(&self, target: Target) -> Option<(Figure, Option<&Requirement>)> {
+    pub(super) fn asked(&self, target: Criterion) -> Option<(Figure, Option<&Requirement>)> {
         match target {
-            Target::Objective => {
+            Criterion::Objective => {
                 let is_asked = self.objective.scope == Scope::Tolerances;
                 is_asked.then_some((self.objective.figure, None))
             }
-            Target::Bound(figure, _) => {
+            Criterion::Bound(figure, _) => {
                 let mut all = self.requirements.iter();
                 let found = all.find(|it| it.figure == figure && it.is_of_each_motion())?;
                 Some((figure, Some(found)))
@@ -232,21 +233,21 @@ impl Problem {
     }
 
     /// What is asked of every machine within the tolerances.
-    pub(super) fn targets(&self) -> Vec<Target> {
+    pub(super) fn targets(&self) -> Vec<Criterion> {
         let required = self.requirements.iter().filter(|it| it.is_of_each_motion());
         let sides = required.flat_map(|it| it.sides().map(|(side, _)| (it.figure, side)));
-        let bounds = sides.map(|(figure, side)| Target::Bound(figure, side));
+        let bounds = sides.map(|(figure, side)| Criterion::Bound(figure, side));
         let is_worst_sought = self.objective.scope == Scope::Tolerances;
         bounds
-            .chain(is_worst_sought.then_some(Target::Objective))
+            .chain(is_worst_sought.then_some(Criterion::Objective))
             .collect()
     }
 
     /// The figure of a target, and its good side.
-    pub(super) fn figure_of(&self, target: Target) -> (Figure, Sense) {
+    pub(super) fn figure_of(&self, target: Criterion) -> (Figure, Sense) {
         match target {
-            Target::Objective => (self.objective.figure, self.objective.sense),
-            Target::Bound(figure, side) => (figure, side),
+            Criterion::Objective => (self.objective.figure, self.objective.sense),
+            Criterion::Bound(figure, side) => (figure, side),
         }
     }
 }
@@ -262,7 +263,7 @@ fn slope_at(
     let spread = neighbours.spread;
     let value = spread.value(figure, &orbit)?;
     let exact = || {
-        let rows = Rows::at(about, at)?;
+        let rows = ParameterJacobian::at(about, at)?;
         let mut parameters = rows.parameters().to_vec();
         parameters.push(Parameter::Frequency);
         let slopes = derivatives::differentiate_orbit(&orbit, &parameters).ok()?;

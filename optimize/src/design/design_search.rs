@@ -6,12 +6,12 @@ use super::ascent::{ascend, ascend_from};
 use super::check_finalists::check_finalists;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
-use super::found::{APART, Ascents, Found, RIVAL, is_another};
-use super::incumbent::Rank;
+use super::found::{APART, Ascents, RIVAL, SearchResult, is_another};
+use super::incumbent::CheckLevel;
 use super::nearest_miss::nearest_miss;
 use super::no_design::SearchError;
-use super::robustify::{Robust, enforce_tolerance_box};
-use super::survey::{Point, Survey};
+use super::robustify::{RobustDesign, enforce_tolerance_box};
+use super::survey::{Survey, SurveyPoint};
 use super::trial::FULL;
 use super::{DISTANT, Design, GAIN, Infeasible};
 use crate::order::sort_falling;
@@ -31,35 +31,35 @@ const FINALISTS: usize = 3;
 
 /// How to search.
 #[derive(Debug, Clone, Copy)]
-pub struct Settings {
+pub struct SearchSettings {
     /// Zones to compute at most, at least [`LEAST_EVALUATIONS`].
     pub evaluations: u64,
 }
 
 /// A search after its survey and its ascents.
-pub(super) struct Search<'a> {
+pub(super) struct DesignSearch<'a> {
     pub survey: &'a Survey<'a>,
     /// The best point of the survey, and how many it has.
-    nearest: Point,
+    nearest: SurveyPoint,
     surveyed: usize,
     /// The tops of hills, the best first.
     tops: Vec<Candidate>,
     /// Points of the survey that are apart from those of the ascents, the best first.
-    spare: Vec<Point>,
+    spare: Vec<SurveyPoint>,
     /// The best points of the survey whose zones have several ranges.
-    folded: Vec<Point>,
+    folded: Vec<SurveyPoint>,
     /// Designs that keep their whole box of tolerances.
-    robust: Vec<Robust>,
+    robust: Vec<RobustDesign>,
     /// What the best of the others lacks.
     lack: Option<Infeasible>,
     ascents: Ascents,
 }
 
-impl<'a> Search<'a> {
+impl<'a> DesignSearch<'a> {
     /// None if the survey was stopped.
     pub fn new(
         survey: &'a Survey<'a>,
-        settings: Settings,
+        settings: SearchSettings,
         starts: &[(Vec<f64>, f64)],
     ) -> Option<Self> {
         let problem = survey.problem;
@@ -68,7 +68,7 @@ impl<'a> Search<'a> {
         let share = share.min(settings.evaluations / LARGEST_SURVEY);
         let points = survey.points(share as usize)?;
         let most = STARTS.max(((settings.evaluations - share) / EVALUATIONS_PER_START) as usize);
-        let mut apart: Vec<Point> = Vec::new();
+        let mut apart: Vec<SurveyPoint> = Vec::new();
         for point in &points {
             let is_new = apart.iter().all(|other| is_apart(&other.unit, &point.unit));
             if is_new && point.cost < DISTANT {
@@ -76,7 +76,7 @@ impl<'a> Search<'a> {
             }
         }
         let folded = points.iter().filter(|it| it.ranges > 1);
-        let folded: Vec<Point> = folded.take(STARTS_ON_RANGES).cloned().collect();
+        let folded: Vec<SurveyPoint> = folded.take(STARTS_ON_RANGES).cloned().collect();
         let left_out = apart.len().saturating_sub(most);
         apart.truncate(most);
         let known = CriticalMachines::default();
@@ -105,7 +105,7 @@ impl<'a> Search<'a> {
     /// Ascends from the next spare points; true if there were any.
     fn ascend_from_spare(&mut self) -> bool {
         let count = STARTS.min(self.spare.len());
-        let points: Vec<Point> = self.spare.drain(..count).collect();
+        let points: Vec<SurveyPoint> = self.spare.drain(..count).collect();
         let survey = self.survey;
         self.tops.extend(parallel::filter_map(&points, |start| {
             survey.charged(|| ascend(survey.problem, &start.unit))
@@ -134,14 +134,14 @@ impl<'a> Search<'a> {
     }
 
     /// A search on a range of the zones that have several, from where these are.
-    pub fn on_range<'b>(&self, survey: &'b Survey<'b>) -> Search<'b> {
+    pub fn on_range<'b>(&self, survey: &'b Survey<'b>) -> DesignSearch<'b> {
         let tops = self.tops.iter().filter(|it| has_ranges(it));
         let folded = self.folded.iter().map(|it| &it.unit);
         let units: Vec<_> = tops.map(|it| &it.unit).chain(folded).collect();
         let tops = parallel::filter_map(&units, |unit| {
             survey.charged(|| ascend(survey.problem, unit))
         });
-        let mut search = Search {
+        let mut search = DesignSearch {
             survey,
             surveyed: self.surveyed,
             nearest: self.nearest.clone(),
@@ -163,21 +163,23 @@ impl<'a> Search<'a> {
     }
 
     /// The best design with the whole box of tolerances, the neighbours of catalogues and all trials, if its score is above a bound.
-    pub fn best(mut self, bound: f64) -> Result<Found, SearchError> {
+    pub fn best(mut self, bound: f64) -> Result<SearchResult, SearchError> {
         let problem = self.survey.problem;
         if self.tops.is_empty() {
             self.climb_from_nearest()?;
         }
-        self.survey.incumbent.update(&self.tops[0], Rank::Motion);
+        self.survey
+            .incumbent
+            .update(&self.tops[0], CheckLevel::Motion);
         self.make_robust();
         if self.robust.is_empty() {
             let lack = self.lack.take().unwrap_or_else(Infeasible::stopped);
             return Err(self.no_design(lack));
         }
-        let mut finalists: Vec<&Robust> = Vec::new();
+        let mut finalists: Vec<&RobustDesign> = Vec::new();
         for robust in &self.robust {
             let design = &robust.candidate.design;
-            let is_new = |it: &&Robust| is_another(problem, &it.candidate.design, design);
+            let is_new = |it: &&RobustDesign| is_another(problem, &it.candidate.design, design);
             if finalists.len() < FINALISTS && finalists.iter().all(is_new) {
                 finalists.push(robust);
             }
@@ -197,11 +199,11 @@ impl<'a> Search<'a> {
         });
         others.extend(rivals.map(|it| it.candidate.design.clone()));
         let incumbent = self.survey.incumbent;
-        incumbent.update(&best.candidate, Rank::Trials);
-        Ok(Found {
+        incumbent.update(&best.candidate, CheckLevel::Trials);
+        Ok(SearchResult {
             ascents: self.ascents,
             sought_from,
-            ..Found::new(problem, passed, others)
+            ..SearchResult::new(problem, passed, others)
         })
     }
 
@@ -265,7 +267,7 @@ impl<'a> Search<'a> {
             Ok(it) => {
                 self.survey
                     .incumbent
-                    .update(&it.candidate, Rank::Tolerances);
+                    .update(&it.candidate, CheckLevel::Tolerances);
                 self.robust.push(it);
             }
             Err(lack) => self.lack = Some(lack.nearer(self.lack.take())),

@@ -3,14 +3,14 @@
 use softstop::Machine;
 
 use super::Design;
-use super::operating_point::At;
+use super::operating_point::SearchPoint;
 use super::problem::Problem;
 use super::space::Axis;
 
 /// Central differences of values of the machine by each coordinate of the cube that is moved, one row for each: over a change to
 /// either side, in edges of the cube.
 pub(super) fn machine_differences(
-    (problem, at): (&Problem, &At<'_>),
+    (problem, at): (&Problem, &SearchPoint<'_>),
     change: f64,
     values: impl Fn(Machine) -> Option<Vec<f64>>,
 ) -> Option<Vec<Vec<f64>>> {
@@ -43,7 +43,7 @@ const WIDTH: f64 = 1e-5;
 /// Central differences of values by each coordinate, one row for each.
 pub(super) fn differences(
     problem: &Problem,
-    at: &At<'_>,
+    at: &SearchPoint<'_>,
     values: &impl Fn(&Design) -> Option<Vec<f64>>,
 ) -> Option<Vec<Vec<f64>>> {
     let count = at.moved.len() + usize::from(at.place.is_some());
@@ -54,7 +54,7 @@ pub(super) fn differences(
             let coordinate = moved.or(place.as_mut())?;
             *coordinate = (*coordinate + by).clamp(0.0, 1.0);
             let coordinate = *coordinate;
-            let aside = At {
+            let aside = SearchPoint {
                 unit: &unit,
                 moved: at.moved,
                 place,

@@ -8,7 +8,7 @@ use softstop_dynamics::parallel;
 use super::check_trials::TriedDesigns;
 use super::coordinates::best_by;
 use super::improve_catalogue::Catalogues;
-use super::robustify::Robust;
+use super::robustify::RobustDesign;
 use crate::order::{sort_falling, sort_rising};
 
 /// Choices far from the others whose trials are made, at most, until a design passes.
@@ -60,7 +60,7 @@ struct DistantValues<'a, 'b> {
     /// Choices that were tried.
     choices: Vec<Vec<usize>>,
     /// The best design that fails, from which those with other choices are sought.
-    from: Robust,
+    from: RobustDesign,
 }
 
 impl DistantValues<'_, '_> {
@@ -129,7 +129,7 @@ impl DistantValues<'_, '_> {
     }
 
     /// The choice of a design.
-    fn choice_of(&self, it: &Robust) -> Vec<usize> {
+    fn choice_of(&self, it: &RobustDesign) -> Vec<usize> {
         self.catalogues.places(&it.candidate.unit)
     }
 

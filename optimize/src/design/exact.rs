@@ -10,15 +10,15 @@ use softstop_dynamics::zone::{ZoneEnd, loss_of_stability};
 use super::Design;
 use super::differences::{differences, machine_differences};
 use super::figure::Figure;
-use super::judge::Judged;
-use super::operating_point::At;
+use super::judge::ZoneMotion;
+use super::operating_point::SearchPoint;
 use super::problem::Problem;
 use crate::robust::{dot, rates};
 
 /// A motion of the search with its derivatives by the coordinates.
 pub(super) struct Linearization<'a> {
     pub(super) problem: &'a Problem,
-    pub(super) at: &'a At<'a>,
+    pub(super) at: &'a SearchPoint<'a>,
     pub(super) point: &'a Design,
     slopes: OrbitDerivatives,
     /// By each coordinate, what changes of the parameters of `slopes` but the last, the frequency, while that stays, in SI
@@ -44,7 +44,7 @@ impl<'a> Linearization<'a> {
     /// motion has no derivatives.
     pub(super) fn of(
         problem: &'a Problem,
-        at: &'a At<'a>,
+        at: &'a SearchPoint<'a>,
         (point, given): (&'a Design, Option<&[f64]>),
     ) -> Option<Self> {
         let followers = point.orbit.scene.rates_of_followers();
@@ -112,7 +112,7 @@ impl<'a> Linearization<'a> {
     }
 
     /// The derivatives of a figure by the coordinates; none if it is not among those that have exact ones.
-    pub(super) fn by(&self, figure: Figure, motion: &Judged<'_>) -> Option<Vec<f64>> {
+    pub(super) fn by(&self, figure: Figure, motion: &ZoneMotion<'_>) -> Option<Vec<f64>> {
         let minus = |a: &[f64], b: &[f64]| Some(a.iter().zip(b).map(|(a, b)| a - b).collect());
         let (_, parameters) = self.slopes.parameters.split_last()?;
         let above = |border: &Border| {
@@ -165,7 +165,7 @@ impl<'a> Linearization<'a> {
 /// By each coordinate of the cube that is moved, the change of some parameters in SI units at a frequency of the drive.
 fn directions(
     problem: &Problem,
-    at: &At<'_>,
+    at: &SearchPoint<'_>,
     (parameters, frequency): (&[Parameter], f64),
 ) -> Vec<Vec<f64>> {
     let change = match problem.machine.ties.is_empty() {

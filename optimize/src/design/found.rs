@@ -4,13 +4,13 @@ use serde::Serialize;
 
 use super::ascent::ascend_from;
 use super::check_finalists::check_finalists;
-use super::check_trials::Passed;
+use super::check_trials::PassedDesign;
 use super::constraint::ActiveLimit;
 use super::coordinates::{Candidate, SearchStart};
 use super::critical::CriticalMachines;
-use super::judge::Met;
-use super::multipliers::{Held, held};
-use super::robustify::{Robust, enforce_tolerance_box, keep_as_is};
+use super::judge::RequirementValue;
+use super::multipliers::{ActiveLimits, held};
+use super::robustify::{RobustDesign, enforce_tolerance_box, keep_as_is};
 use super::trial_search::{COUNTED_GAIN, Resolution};
 use super::{Design, GAIN, Problem};
 use crate::order::sort_falling;
@@ -22,7 +22,7 @@ pub(super) const APART: f64 = 0.12;
 
 /// What a search has found.
 #[derive(Debug, Clone)]
-pub struct Found {
+pub struct SearchResult {
     /// The best design.
     pub design: Design,
     /// Its point of the unit cube.
@@ -36,7 +36,7 @@ pub struct Found {
     /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
     pub rivals: Vec<Design>,
     /// What it has of what is tried; nothing of a search that was stopped.
-    pub tried: Vec<Met>,
+    pub tried: Vec<RequirementValue>,
     /// How fine it was looked for, if trials were in the way.
     pub resolution: Option<Resolution>,
     /// What it took.
@@ -56,12 +56,12 @@ pub struct Ascents {
     pub left_out: usize,
 }
 
-impl Found {
+impl SearchResult {
     /// The best of some designs, and those of the others that are its rivals.
-    pub(super) fn new(problem: &Problem, passed: Passed, others: Vec<Design>) -> Self {
+    pub(super) fn new(problem: &Problem, passed: PassedDesign, others: Vec<Design>) -> Self {
         let score = |it: &Design| problem.score(it);
         let best = passed.robust;
-        let Held { limits, residue } = held(problem, &best.candidate, &best.known);
+        let ActiveLimits { limits, residue } = held(problem, &best.candidate, &best.known);
         let mut all = vec![best.candidate.design];
         for other in others {
             let is_new = all.iter().all(|known| is_another(problem, known, &other));
@@ -99,7 +99,7 @@ impl Found {
     /// Takes the design of another search, which is the better one or as good.
     pub(super) fn take_design(&mut self, problem: &Problem, other: &Self) {
         let problem = &problem.on_range_of(&other.design);
-        let Held { limits, residue } = held(problem, &other.candidate(), &other.known);
+        let ActiveLimits { limits, residue } = held(problem, &other.candidate(), &other.known);
         *self = Self {
             limits,
             residue,
@@ -125,11 +125,11 @@ impl Found {
         let starts = start.into_iter().chain(top);
         let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
         let robust = unmoved.into_iter().chain(robust);
-        let score = |it: &Robust| problem.score(&it.candidate.design);
+        let score = |it: &RobustDesign| problem.score(&it.candidate.design);
         let is_counted = self.known.all_failed().next().is_some();
         let gain = if is_counted { COUNTED_GAIN } else { GAIN };
         let least = (1.0 + gain) * problem.score(&self.design);
-        let mut finalists: Vec<Robust> = robust.filter(|it| score(it) > least).collect();
+        let mut finalists: Vec<RobustDesign> = robust.filter(|it| score(it) > least).collect();
         finalists.reverse();
         sort_falling(&mut finalists, score);
         finalists.dedup_by(|it, known| it.candidate.is_same(&known.candidate));

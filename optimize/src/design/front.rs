@@ -13,9 +13,9 @@ use super::non_dominated::non_dominated;
 use super::problem::{Objective, Problem};
 use super::requirement::{Scope, sign};
 use super::robustify::{enforce, keep_as_is};
-use super::search::Found;
+use super::search::SearchResult;
 use super::trial::{ROUGH, STARTS};
-use super::trial_search::Trials;
+use super::trial_search::TrialSearch;
 use super::{Design, GAIN};
 use crate::order::sort_rising;
 
@@ -84,7 +84,7 @@ const FREE: f64 = 1e-6;
 /// Why there is no other design, in words; none if the design has no such figure.
 pub fn front(
     problem: &Problem,
-    found: &Found,
+    found: &SearchResult,
     figure: Figure,
 ) -> Result<(Front, Option<Candidate>), Option<&'static str>> {
     let start = found.candidate();
@@ -102,22 +102,22 @@ pub fn front(
             bounded(problem, figure, bound)
         }),
     };
-    let tried: Vec<Tried> = parallel::filter_map(&others, |it| tried(figure, it, found));
+    let tried: Vec<FrontPoint> = parallel::filter_map(&others, |it| tried(figure, it, found));
     // Another drive amplitude is another problem.
     let score = |it: &Candidate| problem.score(&it.design);
-    let is_above = |it: &Tried| {
+    let is_above = |it: &FrontPoint| {
         !is_of_force
             && score(&it.candidate) > (1.0 + GAIN) * problem.score(&found.design)
             && problem.is_allowed(&it.candidate.design)
             && problem.has_box(&it.candidate.design).is_ok()
     };
     let (above, mut tried): (Vec<_>, Vec<_>) = tried.into_iter().partition(is_above);
-    let passing = parallel::filter_map(&above, |Tried { candidate, .. }| {
+    let passing = parallel::filter_map(&above, |FrontPoint { candidate, .. }| {
         let trials = problem.pass_trials(&candidate.design, &mut CriticalMachines::default());
         trials.is_ok().then(|| candidate.clone())
     });
     let better = best_by(passing, score);
-    tried.push(Tried {
+    tried.push(FrontPoint {
         place: own,
         is_moved: false,
         candidate: found.candidate(),
@@ -143,12 +143,16 @@ pub(super) fn beats(problem: &Problem, figure: Figure, one: (f64, f64), other: (
 }
 
 /// Those that no other one is as good as in both quantities and better in one, in rising order of the figure.
-fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec<&'a Tried> {
+fn undominated<'a>(
+    problem: &Problem,
+    figure: Figure,
+    tried: &'a [FrontPoint],
+) -> Vec<&'a FrontPoint> {
     let sign = sign(figure.sense());
     let places = tried.iter().map(|it| it.place);
     let goods = places.map(|(value, sought)| vec![sign * value, problem.objective.score(sought)]);
     let members = non_dominated(&Vec::from_iter(goods)).members;
-    let mut best: Vec<&Tried> = members.into_iter().map(|index| &tried[index]).collect();
+    let mut best: Vec<&FrontPoint> = members.into_iter().map(|index| &tried[index]).collect();
     sort_rising(&mut best, |it| it.place.0);
     best
 }
@@ -157,7 +161,7 @@ fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec
 type Bounded = (Problem, Candidate);
 
 /// A design that passes its trials and keeps its box.
-struct Tried {
+struct FrontPoint {
     /// Its figure, and what is sought.
     place: (f64, f64),
     /// Whether it had to give way for that.
@@ -166,7 +170,11 @@ struct Tried {
 }
 
 /// A design on the way from one that was found, or one near it that passes; none if there is none.
-fn tried(figure: Figure, (problem, candidate): &Bounded, found: &Found) -> Option<Tried> {
+fn tried(
+    figure: Figure,
+    (problem, candidate): &Bounded,
+    found: &SearchResult,
+) -> Option<FrontPoint> {
     let (known, is_of_share) = (&found.known, figure == Figure::Certainty);
     // A share has no derivative: an ascent may lead back to the design, where to count starts may take minutes.
     let as_is = is_of_share.then(|| keep_as_is(problem, candidate));
@@ -177,11 +185,11 @@ fn tried(figure: Figure, (problem, candidate): &Bounded, found: &Found) -> Optio
     };
     let is_moved = !problem.passes(&held.candidate.design, known, ROUGH);
     let candidate = match is_moved {
-        true => Trials::new(problem, &held.known).nearby(&held.candidate)?,
+        true => TrialSearch::new(problem, &held.known).nearby(&held.candidate)?,
         false => held.candidate,
     };
     let place = place(problem, figure, &candidate)?;
-    Some(Tried {
+    Some(FrontPoint {
         place,
         is_moved,
         candidate,

@@ -9,7 +9,7 @@ use softstop_dynamics::parallel;
 use super::ascent::{ascend, ascend_from};
 use super::coordinates::{Candidate, best_by};
 use super::problem::Problem;
-use super::robustify::{Robust, enforce};
+use super::robustify::{RobustDesign, enforce};
 
 /// How far along one catalogue values are tried; of two, both neighbours at once.
 const FAR: isize = 3;
@@ -27,11 +27,11 @@ pub(super) struct CatalogueSearch<'a> {
     /// The values that were tried.
     tried: HashSet<Vec<usize>>,
     /// The designs of these that were not taken.
-    found: Vec<Robust>,
+    found: Vec<RobustDesign>,
 }
 
 impl<'a> CatalogueSearch<'a> {
-    pub(super) fn new(problem: &'a Problem, from: Robust) -> Self {
+    pub(super) fn new(problem: &'a Problem, from: RobustDesign) -> Self {
         let catalogues = Catalogues::of(problem);
         Self {
             problem,
@@ -41,13 +41,13 @@ impl<'a> CatalogueSearch<'a> {
         }
     }
 
-    fn score(&self, it: &Robust) -> f64 {
+    fn score(&self, it: &RobustDesign) -> f64 {
         self.problem.score(&it.candidate.design)
     }
 
     /// The best design that was not taken, none of those with values beside its own being better; none where its score is not
     /// above a bound.
-    pub(super) fn take_best(&mut self, bound: f64) -> Option<Robust> {
+    pub(super) fn take_best(&mut self, bound: f64) -> Option<RobustDesign> {
         loop {
             let places = 0..self.found.len();
             let best = best_by(places.rev(), |place| self.score(&self.found[*place]))?;
@@ -67,7 +67,7 @@ impl<'a> CatalogueSearch<'a> {
     }
 
     /// The best designs with the untried values beside those of a design.
-    fn seek_beside(&mut self, from: &Robust) -> Vec<Robust> {
+    fn seek_beside(&mut self, from: &RobustDesign) -> Vec<RobustDesign> {
         let beside = self.catalogues.beside(&from.candidate.unit).into_iter();
         let new: Vec<_> = beside
             .filter(|places| self.tried.insert(places.clone()))
@@ -122,9 +122,9 @@ impl Catalogues {
     pub(super) fn design_at(
         &self,
         problem: &Problem,
-        Robust { candidate, known }: &Robust,
+        RobustDesign { candidate, known }: &RobustDesign,
         places: &[usize],
-    ) -> Option<Robust> {
+    ) -> Option<RobustDesign> {
         let unit = self.unit(&candidate.unit, places);
         let warm = ascend_from(problem, known, (&unit, candidate.design.place));
         let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;

@@ -7,7 +7,7 @@ use super::problem::Problem;
 
 /// How much of a design is checked.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub(super) enum Rank {
+pub(super) enum CheckLevel {
     /// The motion alone.
     Motion,
     /// All machines within the tolerances.
@@ -19,7 +19,7 @@ pub(super) enum Rank {
 /// The best design of the highest rank.
 pub(super) struct Incumbent<'a> {
     problem: &'a Problem,
-    best: Mutex<Option<(Rank, f64, Candidate)>>,
+    best: Mutex<Option<(CheckLevel, f64, Candidate)>>,
 }
 
 impl<'a> Incumbent<'a> {
@@ -39,11 +39,11 @@ impl<'a> Incumbent<'a> {
     /// True if a motion of this score would be the best so far.
     pub(super) fn is_beaten_by(&self, score: f64) -> bool {
         let best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        is_below(best.as_ref(), (Rank::Motion, score))
+        is_below(best.as_ref(), (CheckLevel::Motion, score))
     }
 
     /// Replaces the best design by a better one, or by one of a higher rank.
-    pub(super) fn update(&self, candidate: &Candidate, rank: Rank) {
+    pub(super) fn update(&self, candidate: &Candidate, rank: CheckLevel) {
         let score = self.problem.score(&candidate.design);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
         if is_below(best.as_ref(), (rank, score)) {
@@ -52,6 +52,6 @@ impl<'a> Incumbent<'a> {
     }
 }
 
-fn is_below(best: Option<&(Rank, f64, Candidate)>, other: (Rank, f64)) -> bool {
+fn is_below(best: Option<&(CheckLevel, f64, Candidate)>, other: (CheckLevel, f64)) -> bool {
     best.is_none_or(|(rank, score, _)| (*rank, *score) < other)
 }

@@ -19,7 +19,7 @@ use super::requirement::Requirement;
 
 /// A z = 1 motion of a zone, to be judged.
 #[derive(Debug, Clone, Copy)]
-pub struct Judged<'a> {
+pub struct ZoneMotion<'a> {
     /// The machine, its drive at the motion's frequency.
     pub machine: &'a Machine,
     /// Its zone.
@@ -32,7 +32,7 @@ pub struct Judged<'a> {
     pub stroke: CycleMetrics,
 }
 
-impl<'a> Judged<'a> {
+impl<'a> ZoneMotion<'a> {
     /// A motion at a place of its zone.
     ///
     /// # Errors
@@ -185,7 +185,7 @@ const AT_FOLD: f64 = 1e-6;
 
 /// A requirement and what a motion has of it, in SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Met {
+pub struct RequirementValue {
     /// What is required.
     pub requirement: Requirement,
     /// The index of the case in which it is, if it is one.
@@ -202,7 +202,7 @@ pub struct Met {
     pub interval: Option<[f64; 2]>,
 }
 
-impl Met {
+impl RequirementValue {
     /// A requirement of which nothing is known.
     pub(super) fn of(requirement: Requirement) -> Self {
         Self {
@@ -264,8 +264,8 @@ impl Met {
 }
 
 impl Problem {
-    /// The value of a figure of a motion, as [`Judged::value`], or its cost.
-    pub fn value(&self, motion: &Judged<'_>, figure: Figure) -> f64 {
+    /// The value of a figure of a motion, as [`ZoneMotion::value`], or its cost.
+    pub fn value(&self, motion: &ZoneMotion<'_>, figure: Figure) -> f64 {
         match figure {
             Figure::Cost => {
                 let cost = self.cost.as_ref();
@@ -277,7 +277,7 @@ impl Problem {
     }
 
     /// What is sought of a motion, in SI units; none if it has no such figure.
-    pub fn sought(&self, motion: &Judged<'_>) -> Option<f64> {
+    pub fn sought(&self, motion: &ZoneMotion<'_>) -> Option<f64> {
         let value = self.value(motion, self.objective.figure);
         let score = self.objective.score(value);
         (score > 0.0 && score.is_finite()).then_some(value)
@@ -289,21 +289,21 @@ impl Problem {
     }
 
     /// The requirements that one motion tells, and what it has of them.
-    pub fn met(&self, motion: &Judged<'_>) -> Vec<Met> {
-        let all = self.single().map(|requirement| Met {
+    pub fn met(&self, motion: &ZoneMotion<'_>) -> Vec<RequirementValue> {
+        let all = self.single().map(|requirement| RequirementValue {
             value: self.value(motion, requirement.figure),
-            ..Met::of(*requirement)
+            ..RequirementValue::of(*requirement)
         });
         all.collect()
     }
 
     /// The margin M and what the motion has of it; none if none is asked for.
-    pub fn share(&self, motion: &Judged<'_>) -> Option<Met> {
+    pub fn share(&self, motion: &ZoneMotion<'_>) -> Option<RequirementValue> {
         let value = motion.value(Figure::Share);
         let is_at_bound = (value - self.margin).abs() < ROUNDING;
-        (self.margin > 0.0).then_some(Met {
+        (self.margin > 0.0).then_some(RequirementValue {
             value: if is_at_bound { self.margin } else { value },
-            ..Met::of(Requirement::at_least(Figure::Share, self.margin))
+            ..RequirementValue::of(Requirement::at_least(Figure::Share, self.margin))
         })
     }
 }
@@ -312,7 +312,7 @@ impl Problem {
 const ROUNDING: f64 = 1e-9;
 
 /// How far a motion is from what is required of it, in units of the bounds; 0 if all is met.
-pub fn violation(met: &[Met]) -> f64 {
+pub fn violation(met: &[RequirementValue]) -> f64 {
     met.iter()
         .map(|it| it.requirement.violation(it.value))
         .sum()

@@ -12,7 +12,7 @@ use super::figure::Figure;
 use super::judge::violation;
 use super::problem::Problem;
 use super::space::Interval;
-use super::zoned::Zoned;
+use super::zoned::ZonedMachine;
 use super::{DISTANT, Design, Infeasible};
 
 /// Places that are looked at before the best one is refined.
@@ -28,9 +28,9 @@ const TOLERANCE: f64 = 1e-8;
 ///
 /// # Errors
 /// [`Infeasible`] if none of the motions looked at is found, stable and as required.
-pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
+pub(super) fn best(zoned: &ZonedMachine<'_>) -> Result<Design, Infeasible> {
     let window = zoned.window()?;
-    let line = Line {
+    let line = ZoneLine {
         zoned,
         best: RefCell::default(),
         lack: RefCell::default(),
@@ -56,15 +56,15 @@ pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
 }
 
 /// The motions along a zone.
-struct Line<'a> {
-    zoned: &'a Zoned<'a>,
+struct ZoneLine<'a> {
+    zoned: &'a ZonedMachine<'a>,
     /// The best that was met: its score, its place, and its design unless only the velocity counts.
     best: RefCell<Option<(f64, f64, Option<Design>)>>,
     /// What the one lacks that is nearest to feasible ones.
     lack: RefCell<Option<Infeasible>>,
 }
 
-impl Line<'_> {
+impl ZoneLine<'_> {
     /// Minus the score of the stable motion that is as required; for others a finite grade above all of those.
     fn cost_at(&self, place: f64) -> f64 {
         match self.score_at(place) {
@@ -112,7 +112,7 @@ impl Line<'_> {
 
     /// The design at a place with this motion, if it is as required in all cases.
     fn design_at(&self, place: f64, point: &BranchPoint) -> Result<Design, Infeasible> {
-        let Zoned {
+        let ZonedMachine {
             problem,
             machine,
             zone,
@@ -122,7 +122,7 @@ impl Line<'_> {
         let own = Design::of_orbit(machine.clone(), (zone, place), orbit);
         let frequency = own.drive_frequency();
         let own = as_required(problem, own)?;
-        let in_case = |(case, stated): (&Zoned<'_>, _)| {
+        let in_case = |(case, stated): (&ZonedMachine<'_>, _)| {
             let place = case.place_of(frequency);
             let design = case.at(place).ok_or_else(|| {
                 let gap = (-place).max(place - 1.0).clamp(0.0, DISTANT);
@@ -150,7 +150,7 @@ impl Line<'_> {
         }
     }
 
-    /// Brent's search between two places. What it finds is kept by [`Line::cost_at`], so its
+    /// Brent's search between two places. What it finds is kept by [`ZoneLine::cost_at`], so its
     /// own verdict is not needed: a search that fails leaves the best sample standing.
     fn refine(&self, (low, high): (f64, f64)) {
         let solver = BrentOpt::new(low, high).set_tolerance(f64::EPSILON.sqrt(), TOLERANCE);
@@ -196,7 +196,7 @@ fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> 
     Ok(Design { value, ..design })
 }
 
-impl CostFunction for &Line<'_> {
+impl CostFunction for &ZoneLine<'_> {
     type Param = f64;
     type Output = f64;
 

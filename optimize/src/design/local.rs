@@ -9,8 +9,8 @@ use super::critical::CriticalMachines;
 use super::differences::differences;
 use super::exact::Linearization;
 use super::figure::{Figure, Sense};
-use super::judge::Judged;
-use super::operating_point::At;
+use super::judge::ZoneMotion;
+use super::operating_point::SearchPoint;
 use super::problem::{Objective, Problem};
 use super::reach::inside;
 use super::requirement::sign;
@@ -19,7 +19,7 @@ use super::space::End;
 
 /// What is known at a point: what is sought as scores, and constraints.
 #[derive(Debug, Clone)]
-pub struct Local {
+pub struct LocalModel {
     /// The scores of the drawing, and of each case that has a weight.
     pub scores: Vec<Scores>,
     /// The constraints.
@@ -55,7 +55,7 @@ impl Scores {
     }
 }
 
-impl Local {
+impl LocalModel {
     /// The score of the weighted mean of what the own machines have.
     pub fn objective(&self, objective: &Objective) -> Slope {
         let scores = self.scores.iter();
@@ -72,7 +72,11 @@ impl Local {
 }
 
 /// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
-pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option<Local> {
+pub fn local(
+    problem: &Problem,
+    at: &SearchPoint<'_>,
+    known: &CriticalMachines,
+) -> Option<LocalModel> {
     let here = Design::find(problem, at)?;
     let exact = Linearization::of(problem, at, (&here, None));
     let mut all = of_point(problem, at, (&here, exact.as_ref()), known)?;
@@ -91,7 +95,7 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
     Some(all)
 }
 
-impl Local {
+impl LocalModel {
     /// Adds what is known of a case.
     fn add(&mut self, other: Self, (index, weight): (usize, f64)) {
         let scores = other.scores.into_iter();
@@ -112,10 +116,10 @@ impl Local {
 /// What is known of one operating point, without its cases.
 fn of_point(
     problem: &Problem,
-    at: &At<'_>,
+    at: &SearchPoint<'_>,
     (here, exact): (&Design, Option<&Linearization<'_>>),
     known: &CriticalMachines,
-) -> Option<Local> {
+) -> Option<LocalModel> {
     let motion = here.judged().ok()?;
     let slopes = slopes(problem, at, exact, (here, &motion))?;
     let (frequency, figures) = slopes.split_last()?;
@@ -188,7 +192,7 @@ fn of_point(
         true => sought.value,
         false => problem.objective.value_of(score),
     };
-    Some(Local {
+    Some(LocalModel {
         scores: vec![scores],
         constraints,
         design: is_good.then(|| Design {
@@ -206,9 +210,9 @@ const ROUNDING: f64 = 1e-9;
 /// given, and the drive's frequency. Exact derivatives where the motion has them, differences for the rest.
 fn slopes(
     problem: &Problem,
-    at: &At<'_>,
+    at: &SearchPoint<'_>,
     exact: Option<&Linearization<'_>>,
-    (here, motion): (&Design, &Judged<'_>),
+    (here, motion): (&Design, &ZoneMotion<'_>),
 ) -> Option<Vec<Slope>> {
     let required = problem.single().map(|it| it.figure);
     let share = problem.has_given_frequency().then_some(Figure::Share);

@@ -61,13 +61,13 @@ use std::slice;
 
 use box_window::BoxWindow;
 use case::Case;
-use judge::{Judged, Met};
+use judge::{RequirementValue, ZoneMotion};
 use operating_point::OperatingPoint;
 use softstop::{Dimension, Machine, MotionError, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::{ZoneError, ZoneKind};
 use softstop_dynamics::{Orbit, Zone, parallel, zone};
-use zoned::Zoned;
+use zoned::ZonedMachine;
 
 pub use problem::Problem;
 pub use softstop_dynamics::figure;
@@ -106,8 +106,8 @@ impl Design {
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
-    pub fn judged(&self) -> Result<Judged<'_>, MotionError> {
-        Judged::new(&self.machine, &self.zone, self.place, &self.orbit)
+    pub fn judged(&self) -> Result<ZoneMotion<'_>, MotionError> {
+        ZoneMotion::new(&self.machine, &self.zone, self.place, &self.orbit)
     }
 
     /// Drive frequency in the machine's own units.
@@ -206,7 +206,7 @@ impl Problem {
                 }
                 ZoneKind::SingleImpact { .. } => problem.zone_of(&machine),
             };
-            Zoned::new(problem, machine, zone)
+            ZonedMachine::new(problem, machine, zone)
         };
         let cases = self.in_cases();
         line_search::best(&self.with_cases(zoned(self), cases.iter().map(zoned))?)
@@ -233,7 +233,7 @@ impl Problem {
     fn on_zones<T: Send + Sync>(
         &self,
         points: &[Vec<f64>],
-        compute: impl Fn(&Zoned<'_>) -> Result<T, Infeasible> + Sync,
+        compute: impl Fn(&ZonedMachine<'_>) -> Result<T, Infeasible> + Sync,
     ) -> Vec<Result<T, Infeasible>> {
         let cases = self.in_cases();
         let own = self.zoned(points).into_iter();
@@ -243,7 +243,7 @@ impl Problem {
             let cases: Vec<_> = others.iter_mut().filter_map(Iterator::next).collect();
             self.with_cases(own, cases)
         });
-        let all: Vec<Result<Zoned, Infeasible>> = all.collect();
+        let all: Vec<Result<ZonedMachine, Infeasible>> = all.collect();
         parallel::map(&all, |zoned| match zoned {
             Ok(zoned) => compute(zoned),
             Err(lack) => Err(lack.clone()),
@@ -251,21 +251,21 @@ impl Problem {
     }
 
     /// The machines at many points with their zones, without cases.
-    fn zoned(&self, points: &[Vec<f64>]) -> Vec<Result<Zoned<'_>, Infeasible>> {
+    fn zoned(&self, points: &[Vec<f64>]) -> Vec<Result<ZonedMachine<'_>, Infeasible>> {
         let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
         let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
         let pairs = machines.into_iter().zip(self.zones_of(&scenes));
         pairs
-            .map(|(machine, zone)| Zoned::new(self, machine, zone))
+            .map(|(machine, zone)| ZonedMachine::new(self, machine, zone))
             .collect()
     }
 
     /// A machine of the drawing with the same one in each case.
     fn with_cases<'a>(
         &self,
-        own: Result<Zoned<'a>, Infeasible>,
-        cases: impl IntoIterator<Item = Result<Zoned<'a>, Infeasible>>,
-    ) -> Result<Zoned<'a>, Infeasible> {
+        own: Result<ZonedMachine<'a>, Infeasible>,
+        cases: impl IntoIterator<Item = Result<ZonedMachine<'a>, Infeasible>>,
+    ) -> Result<ZonedMachine<'a>, Infeasible> {
         let own = own?;
         let cases = cases.into_iter().zip(&self.cases);
         let cases = cases.map(|(it, stated)| it.map_err(|lack| lack.in_case(stated)));
@@ -280,7 +280,8 @@ impl Problem {
                 problem, design, ..
             } = it;
             let motion = design.judged();
-            let is_met = motion.is_ok_and(|motion| problem.met(&motion).iter().all(Met::is_met));
+            let is_met = motion
+                .is_ok_and(|motion| problem.met(&motion).iter().all(RequirementValue::is_met));
             let window = problem.window(&design.machine, &design.zone);
             is_met && window.is_ok_and(|it| it.contains(design.place))
         })

@@ -6,7 +6,7 @@ use super::constraint::{ActiveLimit, Limit};
 use super::coordinates::{Candidate, Coordinates};
 use super::critical::CriticalMachines;
 use super::figure::Sense;
-use super::local::{Local, local};
+use super::local::{LocalModel, local};
 use super::problem::Problem;
 use super::slope::{Slope, unit_row};
 use super::space::{Axis, End};
@@ -20,7 +20,7 @@ const RESIDUE: f64 = 1e-2;
 
 /// What holds a design back.
 #[derive(Debug, Clone)]
-pub(super) struct Held {
+pub(super) struct ActiveLimits {
     /// All of it.
     pub limits: Vec<ActiveLimit>,
     /// Rate of the score, relative, by the edges of the cube, that nothing of it holds back; NaN where it is unknown.
@@ -28,7 +28,7 @@ pub(super) struct Held {
 }
 
 /// What holds a design back, with what is known of the machines within its tolerances.
-pub(super) fn held(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> Held {
+pub(super) fn held(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> ActiveLimits {
     let coordinates = Coordinates::new(problem, &it.unit);
     let start = coordinates.start(it.design.place);
     let at = coordinates.at(&it.unit, &start);
@@ -51,7 +51,7 @@ pub(super) fn held(problem: &Problem, it: &Candidate, known: &CriticalMachines) 
             all.push(limit);
         }
     }
-    Held {
+    ActiveLimits {
         limits: all,
         residue: rest,
     }
@@ -74,7 +74,7 @@ fn candidates(
     problem: &Problem,
     coordinates: &Coordinates,
     start: &[f64],
-    found: &Local,
+    found: &LocalModel,
 ) -> Vec<(ActiveLimit, Vec<f64>)> {
     let active = found.constraints.iter();
     let active = active.filter(|it| it.slope.value <= AT_LIMIT);
@@ -102,7 +102,7 @@ fn candidates(
 /// Those of them that hold the score back, and what they leave of its gradient.
 fn held_by(
     problem: &Problem,
-    found: &Local,
+    found: &LocalModel,
     candidates: Vec<(ActiveLimit, Vec<f64>)>,
 ) -> (Vec<ActiveLimit>, f64) {
     let Slope {

@@ -5,7 +5,7 @@ use argmin::core::{Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 
 use super::problem::Problem;
-use super::survey::{Point, Survey};
+use super::survey::{Survey, SurveyPoint};
 
 /// Edges of the first simplex, in edges of the cube, and of each next one in units of the one before.
 const FIRST_EDGE: f64 = 0.05;
@@ -19,7 +19,7 @@ const LEAST_GAIN: f64 = 1e-10;
 const TOLERANCE: f64 = 1e-13;
 
 /// The best point that is met from a point of the survey, within what that has left of its budget.
-pub(super) fn nearest_miss(survey: &Survey<'_>, start: Point) -> Point {
+pub(super) fn nearest_miss(survey: &Survey<'_>, start: SurveyPoint) -> SurveyPoint {
     let mut best = start;
     if best.unit.is_empty() {
         return best;
@@ -38,7 +38,7 @@ pub(super) fn nearest_miss(survey: &Survey<'_>, start: Point) -> Point {
     best
 }
 
-fn minimize(problem: &Problem, from: &Point, edge: f64) -> Result<Point, Error> {
+fn minimize(problem: &Problem, from: &SurveyPoint, edge: f64) -> Result<SurveyPoint, Error> {
     let tolerance = TOLERANCE * from.cost.abs().max(1.0);
     let solver = NelderMead::new(simplex(&from.unit, edge)).with_sd_tolerance(tolerance)?;
     let found = Executor::new(problem, solver)
@@ -46,7 +46,7 @@ fn minimize(problem: &Problem, from: &Point, edge: f64) -> Result<Point, Error> 
         .timer(false)
         .run()?;
     let unit = found.state.get_best_param().unwrap_or(&from.unit);
-    Ok(Point {
+    Ok(SurveyPoint {
         unit: unit.iter().map(|at| at.clamp(0.0, 1.0)).collect(),
         cost: found.state.get_best_cost(),
         ranges: from.ranges,

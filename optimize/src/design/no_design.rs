@@ -6,7 +6,7 @@ use softstop::internals::plain_number;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::conflict::stated;
-use super::found::Found;
+use super::found::SearchResult;
 use super::improve_catalogue::Catalogues;
 use super::space::{Axis, Interval};
 use super::{Infeasible, Problem};
@@ -27,7 +27,7 @@ pub enum SearchError {
     },
     /// The watcher said stop; the best design until then, if there was one that is as asked as far as was looked at.
     #[error("stopped")]
-    Stopped(Option<Box<Found>>),
+    Stopped(Option<Box<SearchResult>>),
     /// The survey and the ascents from it cost more than they may.
     #[error("over its budget")]
     OverBudget,

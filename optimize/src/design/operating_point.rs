@@ -12,7 +12,7 @@ use super::space::{Axis, ROUNDING};
 /// A point of the search: the cube's coordinates, those of them that are moved, and the place in the zone, if the
 /// frequency is not held.
 #[derive(Debug, Clone, Copy)]
-pub struct At<'a> {
+pub struct SearchPoint<'a> {
     /// Coordinates of the unit cube.
     pub unit: &'a [f64],
     /// Which of them are moved.

@@ -5,11 +5,11 @@ use softstop_console::interrupt;
 
 use super::Design;
 use super::figure::Figure;
-use super::judge::Met;
+use super::judge::RequirementValue;
 use super::non_dominated::{NonDominated, non_dominated};
 use super::problem::{Objective, Problem};
 use super::requirement::{Requirement, Scope, sign};
-use super::search::Found;
+use super::search::SearchResult;
 use crate::robust::worst;
 
 /// Designs of which none is better in all that is sought.
@@ -22,14 +22,14 @@ pub struct Pareto {
     /// The one that is nearest to the best of each objective, in units of their ranges.
     pub nearest: usize,
     /// What became of the problems.
-    pub tally: Tally,
+    pub tally: FrontTally,
     /// Machines within the tolerances that were looked at about each design; none if all is exact or they were not looked at.
     pub machines: Option<usize>,
 }
 
 /// The problems of a front, and what became of them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-pub struct Tally {
+pub struct FrontTally {
     /// All problems.
     pub problems: usize,
     /// Those that led to a design.
@@ -46,11 +46,11 @@ pub struct Tally {
 #[derive(Debug, Clone)]
 pub struct Alternative {
     /// The design.
-    pub found: Found,
+    pub found: SearchResult,
     /// What is sought, in SI units; of the worst machine within the tolerances, if that counts.
     pub values: Vec<f64>,
     /// What it has of the requirements, if it was judged anew.
-    pub met: Vec<Met>,
+    pub met: Vec<RequirementValue>,
     /// Share of the machines within its tolerances that lose the motion or violate a requirement, if they were looked at.
     pub violating: Option<f64>,
 }
@@ -114,7 +114,11 @@ impl Alternative {
     }
 
     /// None if the design has no value of some objective.
-    pub(super) fn new(problem: &Problem, objectives: &[Objective], found: &Found) -> Option<Self> {
+    pub(super) fn new(
+        problem: &Problem,
+        objectives: &[Objective],
+        found: &SearchResult,
+    ) -> Option<Self> {
         let values = objectives.iter().map(|it| it.value(problem, &found.design));
         let values: Vec<f64> = values.collect::<Option<_>>()?;
         let mut found = found.clone();
@@ -130,7 +134,11 @@ impl Alternative {
 
 impl Pareto {
     /// The designs of a front, without those that others dominate.
-    pub(super) fn new(objectives: Vec<Objective>, points: Vec<Alternative>, tally: Tally) -> Self {
+    pub(super) fn new(
+        objectives: Vec<Objective>,
+        points: Vec<Alternative>,
+        tally: FrontTally,
+    ) -> Self {
         let mut front = Self {
             objectives,
             points,
@@ -144,7 +152,7 @@ impl Pareto {
 
     /// With another best design by the first objective.
     #[must_use]
-    pub(super) fn with(mut self, problem: &Problem, found: &Found) -> Self {
+    pub(super) fn with(mut self, problem: &Problem, found: &SearchResult) -> Self {
         let point = Alternative::new(problem, &self.objectives, found);
         if let (Some(point), Some(first)) = (point, self.points.first_mut()) {
             *first = point;

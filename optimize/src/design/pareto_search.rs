@@ -5,10 +5,13 @@
 
 use softstop_dynamics::parallel;
 
-use super::pareto::{Alternative, Pareto, Tally, undominated};
-use super::posed::{Posed, Ranges, levels};
+use super::pareto::{Alternative, FrontTally, Pareto, undominated};
+use super::posed::{FrontProblem, Ranges, levels};
 use super::problem::{Objective, Problem};
-use super::search::{Found, LEAST_EVALUATIONS, Quiet, SearchError, Settings, Watch, search_from};
+use super::search::{
+    LEAST_EVALUATIONS, QuietMonitor, SearchError, SearchMonitor, SearchResult, SearchSettings,
+    search_from,
+};
 use crate::order::sort_rising;
 
 /// Problems in gaps between designs of two objectives and, beside a lattice, of more; those of them that are solved at once.
@@ -24,8 +27,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// A problem of a front with its solution.
 #[derive(Debug, Clone)]
-struct Solved {
-    posed: Posed,
+struct SolvedProblem {
+    posed: FrontProblem,
     alternative: Alternative,
 }
 
@@ -37,8 +40,8 @@ impl Pareto {
     /// [`SearchError`] if no design has one of the objectives.
     pub fn search(
         problem: &Problem,
-        first: &Found,
-        (settings, watch): (Settings, &dyn Watch),
+        first: &SearchResult,
+        (settings, watch): (SearchSettings, &dyn SearchMonitor),
     ) -> Result<Self, SearchError> {
         let objectives = problem.objectives();
         let mut search = ParetoSearch {
@@ -49,7 +52,7 @@ impl Pareto {
             ranges: Ranges::default(),
             solved: Vec::new(),
             failed: Vec::new(),
-            tally: Tally::default(),
+            tally: FrontTally::default(),
         };
         search.find_anchors(first)?;
         search.refine_anchors();
@@ -68,7 +71,11 @@ impl Pareto {
         let (solved, tally) = (search.solved.into_iter(), search.tally);
         let points: Vec<Alternative> = solved.map(|it| it.alternative).collect();
         let solved = points.len();
-        Ok(Self::new(objectives, points, Tally { solved, ..tally }))
+        Ok(Self::new(
+            objectives,
+            points,
+            FrontTally { solved, ..tally },
+        ))
     }
 }
 
@@ -76,25 +83,25 @@ impl Pareto {
 struct ParetoSearch<'a> {
     problem: &'a Problem,
     objectives: &'a [Objective],
-    settings: Settings,
-    watch: &'a dyn Watch,
+    settings: SearchSettings,
+    watch: &'a dyn SearchMonitor,
     ranges: Ranges,
-    solved: Vec<Solved>,
+    solved: Vec<SolvedProblem>,
     /// Problems without a design.
-    failed: Vec<Posed>,
-    tally: Tally,
+    failed: Vec<FrontProblem>,
+    tally: FrontTally,
 }
 
 impl ParetoSearch<'_> {
     /// The best design by each objective alone.
-    fn find_anchors(&mut self, first: &Found) -> Result<(), SearchError> {
+    fn find_anchors(&mut self, first: &SearchResult) -> Result<(), SearchError> {
         let count = self.objectives.len();
         self.tally.problems = 2 * count
             + match count {
                 2 => PROBLEMS,
                 _ => (levels(count) + 1).pow(count as u32 - 1) - 1 + PROBLEMS_BESIDE_LATTICE,
             };
-        let alone = |objective| Posed {
+        let alone = |objective| FrontProblem {
             objective,
             bounds: vec![None; count],
         };
@@ -102,7 +109,7 @@ impl ParetoSearch<'_> {
         for index in 1..count {
             let problem = self.problem_of(&alone(index));
             let starts = [first.start()];
-            let quiet = Quiet(self.watch);
+            let quiet = QuietMonitor(self.watch);
             let found = match search_from(&problem, self.settings, &starts, (&quiet, None)) {
                 Ok(found) => found,
                 Err(SearchError::Stopped(_)) => break,
@@ -122,9 +129,9 @@ impl ParetoSearch<'_> {
     /// The best designs by another objective among those that are best by each, of which there may be many.
     fn refine_anchors(&mut self) {
         let count = self.objectives.len();
-        let at_best = |index: usize| Posed {
+        let at_best = |index: usize| FrontProblem {
             objective: usize::from(index == 0),
-            ..Posed::of_bound(count, index, self.ranges.0[index][1])
+            ..FrontProblem::of_bound(count, index, self.ranges.0[index][1])
         };
         self.solve_all((0..count).map(at_best).collect());
     }
@@ -143,14 +150,14 @@ impl ParetoSearch<'_> {
     }
 
     /// Takes note of a solution.
-    fn keep(&mut self, posed: Posed, found: &Found) {
+    fn keep(&mut self, posed: FrontProblem, found: &SearchResult) {
         match Alternative::new(self.problem, self.objectives, found) {
-            Some(alternative) => self.solved.push(Solved { posed, alternative }),
+            Some(alternative) => self.solved.push(SolvedProblem { posed, alternative }),
             None => self.fail(posed),
         }
     }
 
-    fn fail(&mut self, posed: Posed) {
+    fn fail(&mut self, posed: FrontProblem) {
         self.tally.failed += 1;
         self.failed.push(posed);
     }
@@ -160,9 +167,9 @@ impl ParetoSearch<'_> {
     fn fill_gaps(
         &mut self,
         most: usize,
-        widest_gaps: impl Fn(&Ranges, Vec<Vec<f64>>, &[Posed]) -> Vec<Posed>,
+        widest_gaps: impl Fn(&Ranges, Vec<Vec<f64>>, &[FrontProblem]) -> Vec<FrontProblem>,
     ) {
-        let mut all: Vec<Posed> = Vec::new();
+        let mut all: Vec<FrontProblem> = Vec::new();
         while all.len() < most && !self.watch.stop() {
             let mut next = widest_gaps(&self.ranges, self.undominated(), &all);
             next.truncate(AT_ONCE.min(most - all.len()));
@@ -197,7 +204,7 @@ impl ParetoSearch<'_> {
     }
 
     /// Solves problems that do not depend on each other.
-    fn solve_all(&mut self, all: Vec<Posed>) {
+    fn solve_all(&mut self, all: Vec<FrontProblem>) {
         let (implied, posed): (Vec<_>, Vec<_>) =
             all.into_iter().partition(|it| self.is_implied(it));
         self.tally.implied += implied.len();
@@ -221,8 +228,8 @@ impl ParetoSearch<'_> {
     }
 
     /// Whether the solution of a looser problem keeps these bounds, or that has none.
-    fn is_implied(&self, posed: &Posed) -> bool {
-        let is_looser = |other: &Posed| {
+    fn is_implied(&self, posed: &FrontProblem) -> bool {
+        let is_looser = |other: &FrontProblem| {
             let pairs = other.bounds.iter().zip(&posed.bounds);
             let mut pairs = pairs.zip(self.objectives);
             let is_tighter = |own: Option<f64>, bound: f64, it: &Objective| {
@@ -238,7 +245,7 @@ impl ParetoSearch<'_> {
     }
 
     /// Whether a design keeps the bounds of a problem.
-    fn keeps(&self, design: &Alternative, posed: &Posed) -> bool {
+    fn keeps(&self, design: &Alternative, posed: &FrontProblem) -> bool {
         let pairs = self
             .objectives
             .iter()
@@ -253,7 +260,7 @@ impl ParetoSearch<'_> {
     }
 
     /// The problem of one objective with bounds of the others.
-    fn problem_of(&self, posed: &Posed) -> Problem {
+    fn problem_of(&self, posed: &FrontProblem) -> Problem {
         let alone = Problem {
             objective: self.objectives[posed.objective],
             ..self.problem.clone()
@@ -266,22 +273,22 @@ impl ParetoSearch<'_> {
     }
 
     /// Solves a problem with bounds, from the designs that are nearest to these on.
-    fn solve(&self, posed: &Posed) -> Result<Found, SearchError> {
-        let distance = |it: &Solved| {
+    fn solve(&self, posed: &FrontProblem) -> Result<SearchResult, SearchError> {
+        let distance = |it: &SolvedProblem| {
             let bounds = posed.bounds.iter().zip(&it.alternative.values).enumerate();
             let parts = bounds.filter_map(|(index, (bound, value))| {
                 Some(self.ranges.scaled(index, *value) - self.ranges.scaled(index, (*bound)?))
             });
             parts.map(|part| part * part).sum::<f64>()
         };
-        let mut near: Vec<&Solved> = self.solved.iter().collect();
+        let mut near: Vec<&SolvedProblem> = self.solved.iter().collect();
         sort_rising(&mut near, |it| distance(it));
         let starts = near.iter().take(NEIGHBOURS);
         let starts: Vec<(Vec<f64>, f64)> = starts.map(|it| it.alternative.found.start()).collect();
-        let settings = Settings {
+        let settings = SearchSettings {
             evaluations: (self.settings.evaluations / SHARE).max(LEAST_EVALUATIONS),
         };
-        let watch = (&Quiet(self.watch) as &dyn Watch, None);
+        let watch = (&QuietMonitor(self.watch) as &dyn SearchMonitor, None);
         search_from(&self.problem_of(posed), settings, &starts, watch)
     }
 
@@ -293,9 +300,10 @@ impl ParetoSearch<'_> {
             }
             let own = &self.solved[index];
             let objective = own.posed.objective;
-            let graded =
-                |it: &Solved| self.objectives[objective].graded(it.alternative.values[objective]);
-            let is_better = |it: &&Solved| {
+            let graded = |it: &SolvedProblem| {
+                self.objectives[objective].graded(it.alternative.values[objective])
+            };
+            let is_better = |it: &&SolvedProblem| {
                 let gain = graded(it) - graded(own);
                 gain > ROUNDING * graded(own).abs() && self.keeps(&it.alternative, &own.posed)
             };

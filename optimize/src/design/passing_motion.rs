@@ -2,8 +2,8 @@
 
 use super::Design;
 use super::problem::Objective;
-use super::trial_search::{FEW_TRIES, HALVINGS, PLACES, Trials};
-use super::zoned::Zoned;
+use super::trial_search::{FEW_TRIES, HALVINGS, PLACES, TrialSearch};
+use super::zoned::ZonedMachine;
 use crate::order::sort_rising;
 
 /// Relative distance from a score at which another is just above it, and steps to find that.
@@ -12,12 +12,12 @@ const SECANTS: usize = 4;
 /// Places of a zone that are tried to find one that passes, if none is known elsewhere.
 const TRIES: usize = 8;
 
-impl Trials<'_> {
+impl TrialSearch<'_> {
     /// The best motion along the zone of a point of the unit cube that passes and is better than that.
     pub(super) fn along(&self, unit: &[f64], least: f64) -> Option<Design> {
         let problem = self.problem;
         let cases = problem.in_cases();
-        let zoned = Zoned::find(problem, &cases, &problem.axis_values(unit))?;
+        let zoned = ZonedMachine::find(problem, &cases, &problem.axis_values(unit))?;
         let window = zoned.window().ok()?;
         let design = |place: f64| self.known.design(problem, zoned.at(place)?);
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));

@@ -19,7 +19,7 @@ pub(super) fn levels(objectives: usize) -> usize {
 
 /// What a problem of a front asks for.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Posed {
+pub(super) struct FrontProblem {
     /// Which objective is to be best.
     pub objective: usize,
     /// Bounds of the objectives, in SI units.
@@ -30,7 +30,7 @@ pub(super) struct Posed {
 #[derive(Debug, Default)]
 pub(super) struct Ranges(pub Vec<[f64; 2]>);
 
-impl Posed {
+impl FrontProblem {
     /// The best by the first of so many objectives with a bound of one of them.
     pub fn of_bound(count: usize, bounded: usize, bound: f64) -> Self {
         let mut bounds = vec![None; count];
@@ -50,17 +50,21 @@ impl Ranges {
     }
 
     /// Problems in the middle of the gaps between designs of two objectives, the widest first, but for those that were posed.
-    pub fn widest_gaps(&self, mut points: Vec<Vec<f64>>, posed: &[Posed]) -> Vec<Posed> {
+    pub fn widest_gaps(
+        &self,
+        mut points: Vec<Vec<f64>>,
+        posed: &[FrontProblem],
+    ) -> Vec<FrontProblem> {
         sort_rising(&mut points, |it| it[0]);
-        let mut gaps: Vec<(f64, Posed)> = Vec::new();
+        let mut gaps: Vec<(f64, FrontProblem)> = Vec::new();
         for pair in points.windows(2) {
             let widths = [0, 1].map(|index| {
                 (self.scaled(index, pair[0][index]) - self.scaled(index, pair[1][index])).abs()
             });
             let wider = usize::from(widths[1] > widths[0]);
-            let of = |bounded: usize| Posed {
+            let of = |bounded: usize| FrontProblem {
                 objective: 1 - bounded,
-                ..Posed::of_bound(2, bounded, 0.5 * (pair[0][bounded] + pair[1][bounded]))
+                ..FrontProblem::of_bound(2, bounded, 0.5 * (pair[0][bounded] + pair[1][bounded]))
             };
             let new = [wider, 1 - wider].map(of).into_iter();
             let mut new = new.filter(|it| !posed.contains(it));
@@ -74,9 +78,13 @@ impl Ranges {
 
     /// Problems in the middle of the gaps between the values that designs of several objectives have of each, the widest first,
     /// but for those that were posed: of the objective that the worse end of the gap has most more of.
-    pub fn widest_marginal_gaps(&self, points: &[Vec<f64>], posed: &[Posed]) -> Vec<Posed> {
+    pub fn widest_marginal_gaps(
+        &self,
+        points: &[Vec<f64>],
+        posed: &[FrontProblem],
+    ) -> Vec<FrontProblem> {
         let count = self.0.len();
-        let mut gaps: Vec<(f64, Posed)> = Vec::new();
+        let mut gaps: Vec<(f64, FrontProblem)> = Vec::new();
         for bounded in 0..count {
             let mut sorted: Vec<&Vec<f64>> = points.iter().collect();
             sort_rising(&mut sorted, |it| self.scaled(bounded, it[bounded]));
@@ -88,9 +96,9 @@ impl Ranges {
                     (0..count).filter(|index| *index != bounded && gain(*index).is_finite());
                 let objective = others.max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
                 let middle = 0.5 * (pair[0][bounded] + pair[1][bounded]);
-                let new = Posed {
+                let new = FrontProblem {
                     objective: objective.unwrap_or(0),
-                    ..Posed::of_bound(count, bounded, middle)
+                    ..FrontProblem::of_bound(count, bounded, middle)
                 };
                 if -gain(bounded) > SMALL_MARGINAL_GAP && !posed.contains(&new) {
                     gaps.push((-gain(bounded), new));
@@ -101,20 +109,20 @@ impl Ranges {
     }
 
     /// Problems of the first objective with so many bounds of each other one, by the sums of their levels.
-    pub fn lattice(&self) -> Vec<Vec<Posed>> {
+    pub fn lattice(&self) -> Vec<Vec<FrontProblem>> {
         let (others, levels) = (self.0.len() - 1, levels(self.0.len()));
         let count = (levels + 1).pow(others as u32);
         let bound = |index: usize, level: usize| {
             let [worst, best] = self.0[index];
             worst + (best - worst) * level as f64 / (levels + 1) as f64
         };
-        let mut sums: Vec<Vec<Posed>> = vec![Vec::new(); others * levels + 1];
+        let mut sums: Vec<Vec<FrontProblem>> = vec![Vec::new(); others * levels + 1];
         for number in 1..count {
             let own: Vec<usize> = digits(number, levels + 1, others).collect();
             let bounds = own.iter().enumerate();
             let bounds =
                 bounds.map(|(place, level)| (*level > 0).then(|| bound(place + 1, *level)));
-            sums[own.iter().sum::<usize>()].push(Posed {
+            sums[own.iter().sum::<usize>()].push(FrontProblem {
                 objective: 0,
                 bounds: [None].into_iter().chain(bounds).collect(),
             });
@@ -123,7 +131,7 @@ impl Ranges {
     }
 }
 
-fn widest_first(mut gaps: Vec<(f64, Posed)>) -> Vec<Posed> {
+fn widest_first(mut gaps: Vec<(f64, FrontProblem)>) -> Vec<FrontProblem> {
     sort_falling(&mut gaps, |it| it.0);
     gaps.into_iter().map(|(_, it)| it).collect()
 }

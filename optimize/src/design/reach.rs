@@ -1,7 +1,7 @@
 //! Directions within the tolerances in which a search has met a loss of the motion, and how far the motion goes on in each,
 //! with derivatives.
 
-use crate::spread::{Reached, along};
+use crate::spread::{HomotopyEnd, along};
 use softstop::Scene;
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::TestFunction;
@@ -9,11 +9,11 @@ use softstop_dynamics::derivatives::Border;
 use softstop_dynamics::zone::Loss;
 
 use super::Design;
-use super::box_window::Edge;
+use super::box_window::CornerZoneEnd;
 use super::differences::differences;
 use super::exact::Linearization;
 use super::slope::Slope;
-use super::within::Rows;
+use super::within::ParameterJacobian;
 use crate::robust::{Tolerances, is_loss};
 
 /// Share of the box up to which a direction is followed.
@@ -34,8 +34,8 @@ pub(super) fn unreached(
 }
 
 /// How far inside an end of the zone the machine at its corner of the box is, as a share of the frequency.
-pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
-    let rows = Rows::at(about, &edge.corner)?;
+pub(super) fn inside(about: &Linearization<'_>, edge: &CornerZoneEnd) -> Option<Slope> {
+    let rows = ParameterJacobian::at(about, &edge.corner)?;
     let scene = about
         .problem
         .spread(&about.point.machine)?
@@ -63,7 +63,7 @@ fn end(
     direction: &[f64],
 ) -> Option<(f64, Option<(Loss, BranchPoint)>)> {
     let reached = along(spread, &here.orbit, direction, FARTHEST).ok()?;
-    let Reached {
+    let HomotopyEnd {
         share, loss, point, ..
     } = reached;
     match loss.filter(is_loss) {
@@ -109,7 +109,7 @@ fn by_normal(
     (end, share): (&[f64], f64),
     (test, mut point): (TestFunction, BranchPoint),
 ) -> Option<Vec<f64>> {
-    let rows = Rows::at(about, end)?;
+    let rows = ParameterJacobian::at(about, end)?;
     point.parameter = scene.excitation.frequency;
     let border = Border::at_special(scene, 1, (test, &point), rows.parameters()).ok()?;
     let (by, outwards) = rows.across(&border);

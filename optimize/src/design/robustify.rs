@@ -9,7 +9,7 @@ use softstop_explore::zone::lost_by;
 use super::ascent::ascend_from;
 use super::conflict::violated_within;
 use super::coordinates::{Candidate, best_by, keep_best};
-use super::critical::{CriticalMachines, Target};
+use super::critical::{Criterion, CriticalMachines};
 use super::figure::{Figure, Sense};
 use super::multipliers::held;
 use super::problem::Problem;
@@ -30,7 +30,7 @@ const PLACES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 /// What is lost of a design within its tolerances.
 #[derive(Debug, Clone)]
-struct Lost {
+struct BoxLoss {
     /// In this direction of the box.
     direction: Vec<f64>,
     /// At this share of the way.
@@ -41,7 +41,7 @@ struct Lost {
 
 /// A design with its whole box.
 #[derive(Debug, Clone)]
-pub(super) struct Robust {
+pub(super) struct RobustDesign {
     pub candidate: Candidate,
     /// What had to be known for that.
     pub known: CriticalMachines,
@@ -54,7 +54,7 @@ pub(super) struct Robust {
 pub(super) fn enforce_tolerance_box(
     problem: &Problem,
     start: &Candidate,
-) -> Result<Robust, Infeasible> {
+) -> Result<RobustDesign, Infeasible> {
     enforce(problem, start, CriticalMachines::default())
 }
 
@@ -63,17 +63,17 @@ pub(super) fn enforce(
     problem: &Problem,
     start: &Candidate,
     mut known: CriticalMachines,
-) -> Result<Robust, Infeasible> {
+) -> Result<RobustDesign, Infeasible> {
     let score = |it: &Candidate| problem.score(&it.design);
     let mut candidate = start.clone();
-    let mut best: Option<Robust> = None;
+    let mut best: Option<RobustDesign> = None;
     let mut lack: Option<Infeasible> = None;
     for _ in 0..ROUNDS {
-        let Look { is_new, lack: lost } = look(problem, &mut candidate.design, &mut known);
+        let BoxCheck { is_new, lack: lost } = look(problem, &mut candidate.design, &mut known);
         match lost {
             Some(lost) => lack = Some(lost.at(&candidate.unit).nearer(lack)),
             None => {
-                let found = Robust {
+                let found = RobustDesign {
                     candidate: candidate.clone(),
                     known: known.clone(),
                 };
@@ -96,10 +96,12 @@ pub(super) fn enforce(
 }
 
 /// A design as it is, if no machine within the tolerances loses the motion or violates a requirement.
-pub(super) fn keep_as_is(problem: &Problem, it: &Candidate) -> Option<Robust> {
+pub(super) fn keep_as_is(problem: &Problem, it: &Candidate) -> Option<RobustDesign> {
     let (mut candidate, mut known) = (it.clone(), CriticalMachines::default());
     let seen = look(problem, &mut candidate.design, &mut known);
-    seen.lack.is_none().then_some(Robust { candidate, known })
+    seen.lack
+        .is_none()
+        .then_some(RobustDesign { candidate, known })
 }
 
 /// Whether nothing holds a design back: an end of the zone of all stable z = 1 may leap, and the place in it with that, where an
@@ -110,14 +112,14 @@ fn is_stuck(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> bool
 
 /// What is seen of the machines about a design.
 #[derive(Default)]
-pub(super) struct Look {
+pub(super) struct BoxCheck {
     /// Whether something was not known.
     pub is_new: bool,
     /// How much is lacking if machines lose the motion, violate a requirement or cannot be computed.
     pub lack: Option<Infeasible>,
 }
 
-impl Look {
+impl BoxCheck {
     /// Takes note of what is lacking, if it is more than what is known.
     fn note(&mut self, lack: Option<Infeasible>) {
         let is_worse = |it: &Infeasible| self.lack.as_ref().is_none_or(|known| it.gap > known.gap);
@@ -127,8 +129,12 @@ impl Look {
 
 /// Looks all around in every case, takes note of what was not known, and sets what is sought to that of the worst machine, if
 /// that counts.
-pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
-    let mut seen = Look::default();
+pub(super) fn look(
+    problem: &Problem,
+    design: &mut Design,
+    known: &mut CriticalMachines,
+) -> BoxCheck {
+    let mut seen = BoxCheck::default();
     let mut values = Vec::new();
     for it in problem.operating_points(design) {
         let (own, value) = look_at_point(&it.problem, it.design, known.for_case_mut(it.case));
@@ -142,15 +148,19 @@ pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalM
 
 /// Looks all around the operating point of a design, without its cases: with the value of what is sought of the worst machine,
 /// if that counts.
-fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachines) -> (Look, f64) {
+fn look_at_point(
+    problem: &Problem,
+    design: &Design,
+    known: &mut CriticalMachines,
+) -> (BoxCheck, f64) {
     let mut value = design.value;
-    let mut seen = Look::default();
+    let mut seen = BoxCheck::default();
     let Some(spread) = problem.spread(&design.machine) else {
         return (seen, value);
     };
     let unknown = |lack| {
         let (is_new, lack) = (false, Some(lack));
-        (Look { is_new, lack }, design.value)
+        (BoxCheck { is_new, lack }, design.value)
     };
     let lost = match lost(&spread, design) {
         Ok(lost) => lost,
@@ -163,7 +173,7 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
         );
         let lack = Some(Infeasible::new(1.0 - first.share, reason));
         known.losses.extend(lost.into_iter().map(|it| it.direction));
-        return (Look { is_new: true, lack }, value);
+        return (BoxCheck { is_new: true, lack }, value);
     }
     let targets = problem.targets();
     let all = match extremes(problem, (&spread, design), &targets) {
@@ -175,13 +185,13 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
         let is_own = found.at.iter().all(|at| *at == 0.0);
         let is_new = !is_own && known.note(*target, &found.at);
         match target {
-            Target::Objective => {
+            Criterion::Objective => {
                 let claimed = problem.objective.score(value);
                 value = problem.objective.worse(value, found.value);
                 let loss = claimed - problem.objective.score(value);
                 seen.is_new |= is_new && loss > GAIN * claimed.abs();
             }
-            Target::Bound(..) => {
+            Criterion::Bound(..) => {
                 let required = problem.asked(*target).and_then(|(_, it)| it);
                 let broken = required.filter(|it| it.margin(found.value) < 0.0);
                 if let Some(requirement) = broken {
@@ -200,7 +210,7 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
 fn extremes(
     problem: &Problem,
     (spread, design): (&Tolerances, &Design),
-    targets: &[Target],
+    targets: &[Criterion],
 ) -> Result<Vec<Worst>, Infeasible> {
     if targets.is_empty() {
         return Ok(Vec::new());
@@ -246,7 +256,7 @@ impl Problem {
             return Vec::new();
         };
         let mut targets = self.targets();
-        targets.retain(|target| *target != Target::Objective);
+        targets.retain(|target| *target != Criterion::Objective);
         let found = extremes(self, (&spread, design), &targets).unwrap_or_default();
         let pairs = targets.into_iter().zip(found);
         let each = pairs.map(|(target, worst)| {
@@ -268,7 +278,7 @@ fn again<'a>(
 }
 
 /// The directions of the box in which the motion is lost within it.
-fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
+fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<BoxLoss>, Infeasible> {
     let found = nearest(spread, &design.orbit, Norm::Box, 1.0, &interrupt::watch);
     let found = found.map_err(Infeasible::unknown)?;
     let nearest = found.into_iter().filter_map(|it| match it.manifold {
@@ -285,12 +295,12 @@ fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
 }
 
 /// What is lost at these places of the box, but at its border.
-fn losses_within(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
+fn losses_within(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<BoxLoss> {
     let lost = all.into_iter().map(|(at, loss)| {
         let share = at
             .iter()
             .fold(f64::MIN_POSITIVE, |most, part| most.max(part.abs()));
-        Lost {
+        BoxLoss {
             direction: at.iter().map(|part| part / share).collect(),
             share,
             by: lost_by(&loss),

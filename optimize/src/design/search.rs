@@ -11,16 +11,16 @@
 
 use softstop_dynamics::monitor::OptionalMemory;
 
-use super::check_trials::Passed;
+use super::check_trials::PassedDesign;
 use super::critical::CriticalMachines;
-use super::design_search::Search;
-pub use super::design_search::{EVALUATIONS_PER_START, LEAST_EVALUATIONS, Settings};
-pub use super::found::{Ascents, Found};
+use super::design_search::DesignSearch;
+pub use super::design_search::{EVALUATIONS_PER_START, LEAST_EVALUATIONS, SearchSettings};
+pub use super::found::{Ascents, SearchResult};
 use super::incumbent::Incumbent;
 pub use super::no_design::SearchError;
-use super::robustify::Robust;
+use super::robustify::RobustDesign;
 use super::survey::Survey;
-pub use super::survey::{Quiet, Unwatched, Watch};
+pub use super::survey::{QuietMonitor, SearchMonitor, Unmonitored};
 pub use super::trial_search::Resolution;
 use super::{GAIN, Problem};
 use crate::order::sort_falling;
@@ -30,10 +30,10 @@ use crate::order::sort_falling;
 /// [`SearchError`] if nothing feasible was met or the watcher stopped the search.
 pub fn search(
     problem: &Problem,
-    settings: Settings,
-    watch: &dyn Watch,
+    settings: SearchSettings,
+    watch: &dyn SearchMonitor,
     kept: OptionalMemory<'_>,
-) -> Result<Found, SearchError> {
+) -> Result<SearchResult, SearchError> {
     search_from(problem, settings, &[], (watch, kept))
 }
 
@@ -43,13 +43,13 @@ pub fn search(
 /// As [`search`].
 pub fn search_from(
     problem: &Problem,
-    settings: Settings,
+    settings: SearchSettings,
     starts: &[(Vec<f64>, f64)],
-    (watch, kept): (&dyn Watch, OptionalMemory<'_>),
-) -> Result<Found, SearchError> {
+    (watch, kept): (&dyn SearchMonitor, OptionalMemory<'_>),
+) -> Result<SearchResult, SearchError> {
     let incumbent = Incumbent::new(problem);
     let survey = Survey::new(problem, watch, &incumbent, kept);
-    let found = Search::new(&survey, settings, starts).map(best_over_ranges);
+    let found = DesignSearch::new(&survey, settings, starts).map(best_over_ranges);
     // What was cut short may be among the best.
     if survey.is_over_budget() {
         return Err(SearchError::OverBudget);
@@ -57,13 +57,13 @@ pub fn search_from(
     if watch.stop() {
         let best = incumbent.take().map(|candidate| {
             let known = CriticalMachines::default();
-            let untried = Passed {
-                robust: Robust { candidate, known },
+            let untried = PassedDesign {
+                robust: RobustDesign { candidate, known },
                 tried: Vec::new(),
                 resolution: None,
             };
             let problem = problem.on_range_of(&untried.robust.candidate.design);
-            Box::new(Found::new(&problem, untried, Vec::new()))
+            Box::new(SearchResult::new(&problem, untried, Vec::new()))
         });
         return Err(SearchError::Stopped(best));
     }
@@ -72,7 +72,7 @@ pub fn search_from(
 
 /// The best design of a search. Where the branch of a zone folds back, several motions coexist and each ends at a fold of its own:
 /// such a zone is searched as a whole, where its hardest motion counts at each frequency, and on each of its ranges apart.
-fn best_over_ranges(whole: Search<'_>) -> Result<Found, SearchError> {
+fn best_over_ranges(whole: DesignSearch<'_>) -> Result<SearchResult, SearchError> {
     let survey = whole.survey;
     let problem = survey.problem;
     let on_ranges = (0..whole.most_ranges()).map(|index| Problem {
@@ -81,11 +81,11 @@ fn best_over_ranges(whole: Search<'_>) -> Result<Found, SearchError> {
     });
     let on_ranges: Vec<Problem> = on_ranges.collect();
     let surveys: Vec<_> = on_ranges.iter().map(|it| survey.of_problem(it)).collect();
-    let mut searches: Vec<Search<'_>> = surveys.iter().map(|it| whole.on_range(it)).collect();
+    let mut searches: Vec<DesignSearch<'_>> = surveys.iter().map(|it| whole.on_range(it)).collect();
     searches.retain(|it| it.top_score() > 0.0);
     searches.push(whole);
-    sort_falling(&mut searches, Search::top_score);
-    let mut best: Option<Found> = None;
+    sort_falling(&mut searches, DesignSearch::top_score);
+    let mut best: Option<SearchResult> = None;
     let mut failure = None;
     for search in searches {
         let bound = best.as_ref();
@@ -110,7 +110,7 @@ fn best_over_ranges(whole: Search<'_>) -> Result<Found, SearchError> {
 mod tests {
     use softstop::{Machine, Parameter};
 
-    use super::{Settings, Unwatched, search};
+    use super::{SearchSettings, Unmonitored, search};
     use crate::design::certain::{ShareGoal, certain};
     use crate::design::figure::Figure;
     use crate::design::problem::{Problem, Tolerance, Width};
@@ -131,7 +131,12 @@ mod tests {
                 vec![clearance],
             )
         };
-        let found = search(&problem, Settings { evaluations: 200 }, &Unwatched, None)?;
+        let found = search(
+            &problem,
+            SearchSettings { evaluations: 200 },
+            &Unmonitored,
+            None,
+        )?;
         let goal = ShareGoal {
             share: 0.05,
             known: &found.known,

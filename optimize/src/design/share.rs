@@ -12,7 +12,9 @@ use softstop_dynamics::monitor::OptionalMemory;
 use super::conflict::short;
 use super::problem::{Problem, Tolerance};
 use super::requirement::{Requirement, Scope};
-use super::search::{Found, Quiet, SearchError, Settings, Watch, search, search_from};
+use super::search::{
+    QuietMonitor, SearchError, SearchMonitor, SearchResult, SearchSettings, search, search_from,
+};
 use super::{Design, Infeasible};
 use crate::robust::{self, Verdict, normal_quantile, verify_in_cases};
 
@@ -53,10 +55,10 @@ impl Problem {
         };
         let required = self.required_of_each();
         let count = |machines| {
-            let settings = robust::Settings {
+            let settings = robust::VerifySettings {
                 machines,
                 first: MAX_MACHINES,
-                ..robust::Settings::default()
+                ..robust::VerifySettings::default()
             };
             let verdict = verify_in_cases(&drawn, (settings, &required), &interrupt::watch);
             verdict.map_or([1.0; 2], |verdict| verdict.share_rejected())
@@ -88,9 +90,9 @@ impl Verdict {
 /// As [`search`]; [`SearchError::NoDesign`] with the least share if none may be.
 pub(super) fn search_with_share(
     problem: &Problem,
-    (settings, machines): (Settings, usize),
-    (watch, kept): (&dyn Watch, OptionalMemory<'_>),
-) -> Result<(Found, f64, bool), SearchError> {
+    (settings, machines): (SearchSettings, usize),
+    (watch, kept): (&dyn SearchMonitor, OptionalMemory<'_>),
+) -> Result<(SearchResult, f64, bool), SearchError> {
     let mut outcome = search(problem, settings, watch, kept);
     let mut deviations = problem.deviations;
     if !problem.has_normal_tolerances() {
@@ -152,7 +154,7 @@ pub(super) fn search_with_share(
             false => too_few.midpoint(enough),
         };
         let tried = problem.with_deviations(deviations);
-        outcome = search_from(&tried, settings, &starts, (&Quiet(watch), None));
+        outcome = search_from(&tried, settings, &starts, (&QuietMonitor(watch), None));
     }
     let failure = match lack.filter(|_| starts.is_empty()) {
         _ if interrupt::requested() => SearchError::Stopped(None),

@@ -9,7 +9,7 @@ use softstop_dynamics::orbit::OrbitError;
 use super::Design;
 use super::critical::CriticalMachines;
 use super::figure::Figure;
-use super::judge::Met;
+use super::judge::RequirementValue;
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::trial::STARTS;
@@ -99,7 +99,7 @@ impl Problem {
 
 impl OperatingPoint<'_> {
     /// The certainty that is required, as the first starts show it, if they refute it.
-    pub(super) fn refuted_certainty(&self) -> Result<Option<Met>, OrbitError> {
+    pub(super) fn refuted_certainty(&self) -> Result<Option<RequirementValue>, OrbitError> {
         let (case, orbit) = (self.case, &self.design.orbit);
         let mut required = self.problem.trials();
         let required = required.find(|it| it.figure == Figure::Certainty && it.least.is_some());
@@ -108,11 +108,11 @@ impl OperatingPoint<'_> {
         };
         let least = requirement.least.unwrap_or(0.0);
         let refuted = self.problem.refuted_share(orbit, least)?;
-        Ok(refuted.map(|starts| Met {
+        Ok(refuted.map(|starts| RequirementValue {
             case,
             value: starts.share,
             starts: Some(starts),
-            ..Met::of(*requirement)
+            ..RequirementValue::of(*requirement)
         }))
     }
 }

@@ -7,8 +7,8 @@ use argmin::core::{
 };
 use slsqp::{Func, StopTols, minimize};
 
-type Point = Vec<f64>;
-type SqpState = IterState<Point, Point, (), (), (), f64>;
+type SqpPoint = Vec<f64>;
+type SqpState = IterState<SqpPoint, SqpPoint, (), (), (), f64>;
 
 /// Minimises a [`CostFunction`] with its [`Gradient`] within bounds, where all values of an [`Operator`] with its
 /// [`Jacobian`] are at most 0. An iteration is a run of quadratic programs from the point of the one before, without its
@@ -29,10 +29,10 @@ pub struct Slsqp {
 
 impl<P> Solver<P, SqpState> for Slsqp
 where
-    P: CostFunction<Param = Point, Output = f64>
-        + Gradient<Param = Point, Gradient = Point>
-        + Operator<Param = Point, Output = Point>
-        + Jacobian<Param = Point, Jacobian = Vec<Point>>,
+    P: CostFunction<Param = SqpPoint, Output = f64>
+        + Gradient<Param = SqpPoint, Gradient = SqpPoint>
+        + Operator<Param = SqpPoint, Output = SqpPoint>
+        + Jacobian<Param = SqpPoint, Jacobian = Vec<SqpPoint>>,
 {
     fn name(&self) -> &str {
         "SLSQP"

@@ -10,7 +10,9 @@ use super::figure::Figure;
 use super::front::{Front, beats, front};
 use super::pareto::Pareto;
 use super::requirement::Scope;
-use super::search::{Found, SearchError, Settings, Unwatched, Watch, search_from};
+use super::search::{
+    SearchError, SearchMonitor, SearchResult, SearchSettings, Unmonitored, search_from,
+};
 use super::share::search_with_share;
 use super::{Design, Problem};
 
@@ -28,7 +30,7 @@ const ROUNDS: usize = 8;
 
 /// What is looked at beside the search.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Beside {
+pub struct SideTasks {
     /// The task without tolerances.
     pub relaxed: bool,
     /// What more of one good costs of another.
@@ -41,7 +43,7 @@ pub struct Beside {
 #[derive(Debug, Clone)]
 pub struct Solution {
     /// The design.
-    pub found: Found,
+    pub found: SearchResult,
     /// Standard deviations of normal tolerances that it keeps.
     pub deviations: f64,
     /// False if a search for a design that keeps fewer of them was interrupted.
@@ -84,9 +86,9 @@ impl Solution {
     /// As [`search`](super::search::search).
     pub fn of(
         problem: &Problem,
-        settings: Settings,
-        beside: Beside,
-        (watch, kept): (&dyn Watch, OptionalMemory<'_>),
+        settings: SearchSettings,
+        beside: SideTasks,
+        (watch, kept): (&dyn SearchMonitor, OptionalMemory<'_>),
     ) -> Result<Self, SearchError> {
         let (mut found, deviations, is_settled) =
             search_with_share(problem, (settings, beside.machines), (watch, kept))?;
@@ -95,14 +97,14 @@ impl Solution {
         let mut relaxed = None;
         if beside.relaxed && !interrupt::requested() {
             let starts = [found.start()];
-            relaxed = search_from(&relaxed_problem, settings, &starts, (&Unwatched, None)).ok();
+            relaxed = search_from(&relaxed_problem, settings, &starts, (&Unmonitored, None)).ok();
         }
         // Another design has another share of machines that violate a requirement, in a box of the same width.
-        let is_rejected = |found: &Found| {
+        let is_rejected = |found: &SearchResult| {
             problem.has_normal_tolerances()
                 && problem.as_built().rejected(&found.design, beside.machines) > problem.violating
         };
-        let go_on = |found: &mut Found, better: &Candidate| {
+        let go_on = |found: &mut SearchResult, better: &Candidate| {
             let before = problem.has_normal_tolerances().then(|| found.clone());
             let is_better = found.go_on_from(problem, better);
             match before {
@@ -160,7 +162,10 @@ impl Solution {
 }
 
 /// All trade-offs of a design, and those of which there is none, each with the reason.
-fn traded(problem: &Problem, found: &Found) -> (Vec<(Front, Option<Candidate>)>, Vec<String>) {
+fn traded(
+    problem: &Problem,
+    found: &SearchResult,
+) -> (Vec<(Front, Option<Candidate>)>, Vec<String>) {
     let problem = &problem.on_range_of(&found.design);
     let figures = TRADED.iter().filter(|it| **it != problem.objective.figure);
     let figures: Vec<&Figure> = figures.collect();

@@ -12,15 +12,15 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::points::sobol_point;
 
 use super::coordinates::Candidate;
-use super::incumbent::{Incumbent, Rank};
+use super::incumbent::{CheckLevel, Incumbent};
 use super::problem::Problem;
 use super::space::digits;
-use super::zoned::Zoned;
+use super::zoned::ZonedMachine;
 use super::{Design, Infeasible, line_search};
 use crate::order::sort_rising;
 
 /// Who watches a search, from several threads at once.
-pub trait Watch: Sync {
+pub trait SearchMonitor: Sync {
     /// One more zone is computed; the value is what its best motion, if any, has of what is sought.
     fn evaluated(&self, _value: Option<f64>) {}
     /// Whether to give up.
@@ -36,9 +36,9 @@ pub trait Watch: Sync {
 }
 
 /// Watches one of many searches: it can be stopped and has a budget, and tells nothing.
-pub struct Quiet<'a>(pub &'a dyn Watch);
+pub struct QuietMonitor<'a>(pub &'a dyn SearchMonitor);
 
-impl Watch for Quiet<'_> {
+impl SearchMonitor for QuietMonitor<'_> {
     fn stop(&self) -> bool {
         self.0.stop()
     }
@@ -50,13 +50,13 @@ impl Watch for Quiet<'_> {
 
 /// Watches nothing.
 #[derive(Debug, Clone, Copy)]
-pub struct Unwatched;
+pub struct Unmonitored;
 
-impl Watch for Unwatched {}
+impl SearchMonitor for Unmonitored {}
 
 /// A point of the unit cube and its cost.
 #[derive(Debug, Clone)]
-pub(super) struct Point {
+pub(super) struct SurveyPoint {
     pub unit: Vec<f64>,
     pub cost: f64,
     /// Ranges of the zone, which are several where its branch folds back; 0 without a zone.
@@ -95,7 +95,7 @@ impl CostFunction for &Problem {
 /// Computes points within a budget.
 pub(super) struct Survey<'a> {
     pub problem: &'a Problem,
-    pub watch: &'a dyn Watch,
+    pub watch: &'a dyn SearchMonitor,
     pub incumbent: &'a Incumbent<'a>,
     kept: OptionalMemory<'a>,
     /// Scan windows of the budget that are left, of all surveys about the same points.
@@ -105,7 +105,7 @@ pub(super) struct Survey<'a> {
 impl<'a> Survey<'a> {
     pub(super) fn new(
         problem: &'a Problem,
-        watch: &'a dyn Watch,
+        watch: &'a dyn SearchMonitor,
         incumbent: &'a Incumbent<'a>,
         kept: OptionalMemory<'a>,
     ) -> Self {
@@ -145,7 +145,7 @@ impl<'a> Survey<'a> {
     }
 
     /// At most so many points of the unit cube, the best ones first; none if the survey is stopped.
-    pub(super) fn points(&self, evaluations: usize) -> Option<Vec<Point>> {
+    pub(super) fn points(&self, evaluations: usize) -> Option<Vec<SurveyPoint>> {
         let units = units(self.problem.free_axes().count(), evaluations);
         let pieces: Vec<_> = units.chunks(PIECE).enumerate().collect();
         let pieces = parallel::map(&pieces, |(index, units)| self.piece(*index, units));
@@ -155,7 +155,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Points that are recalled, or computed and kept; none if the survey is stopped.
-    fn piece(&self, index: usize, units: &[Vec<f64>]) -> Option<Vec<Point>> {
+    fn piece(&self, index: usize, units: &[Vec<f64>]) -> Option<Vec<SurveyPoint>> {
         if self.watch.stop() || self.is_over_budget() {
             return None;
         }
@@ -172,7 +172,7 @@ impl<'a> Survey<'a> {
                 budget::run_within(u64::MAX, || self.compute(from_ref(unit)));
             }
             let unit = unit.clone();
-            Point { unit, cost, ranges }
+            SurveyPoint { unit, cost, ranges }
         };
         Some(pairs.map(point).collect())
     }
@@ -181,7 +181,7 @@ impl<'a> Survey<'a> {
     fn compute(&self, units: &[Vec<f64>]) -> Vec<Computed> {
         let values = units.iter().map(|unit| self.problem.axis_values(unit));
         let values: Vec<_> = values.collect();
-        let on_zone = |it: &Zoned<'_>| Ok((line_search::best(it), it.zone.ranges().len()));
+        let on_zone = |it: &ZonedMachine<'_>| Ok((line_search::best(it), it.zone.ranges().len()));
         let outcomes = self.problem.on_zones(&values, on_zone).into_iter();
         let outcomes = outcomes.map(|it| it.unwrap_or_else(|lack| (Err(lack), 0)));
         let found = outcomes.zip(units).map(|((outcome, ranges), unit)| {
@@ -191,7 +191,7 @@ impl<'a> Survey<'a> {
             if let Ok(design) = outcome {
                 let unit = unit.clone();
                 self.incumbent
-                    .update(&Candidate { unit, design }, Rank::Motion);
+                    .update(&Candidate { unit, design }, CheckLevel::Motion);
             }
             (cost, value, ranges)
         });

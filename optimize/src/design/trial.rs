@@ -12,7 +12,7 @@ use softstop_dynamics::run_up::RunUp;
 use super::conflict::{conflict, violated_within};
 use super::critical::CriticalMachines;
 use super::figure::Figure;
-use super::judge::{Met, violation};
+use super::judge::{RequirementValue, violation};
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::requirement::{Requirement, Scope};
@@ -26,17 +26,17 @@ pub const ANGLES: usize = 64;
 
 /// How many motions a trial counts.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Effort {
+pub(super) struct TrialSize {
     starts: usize,
     angles: usize,
 }
 
 /// As many as results are told by, and a quarter of them.
-pub(super) const FULL: Effort = Effort {
+pub(super) const FULL: TrialSize = TrialSize {
     starts: STARTS,
     angles: ANGLES,
 };
-pub(super) const ROUGH: Effort = Effort {
+pub(super) const ROUGH: TrialSize = TrialSize {
     starts: STARTS / 4,
     angles: ANGLES / 4,
 };
@@ -59,14 +59,14 @@ impl Problem {
     ///
     /// # Errors
     /// [`OrbitError`] if a motion cannot be computed, or somebody asked to stop.
-    pub fn tried(&self, design: &Design) -> Result<Vec<Met>, OrbitError> {
+    pub fn tried(&self, design: &Design) -> Result<Vec<RequirementValue>, OrbitError> {
         let mut tried = Vec::new();
         for it in self.operating_points(design) {
             let corners = it.problem.corners(it.design);
             for own in it.tried()? {
                 let worst = it.problem.tried_within(&own.requirement, &corners)?;
                 let worst = worst.map(|(worst, _)| worst);
-                tried.push(Met { worst, ..own });
+                tried.push(RequirementValue { worst, ..own });
             }
         }
         Ok(tried)
@@ -130,7 +130,7 @@ impl Problem {
         &self,
         design: &Design,
         known: &mut CriticalMachines,
-    ) -> Result<Vec<Met>, Infeasible> {
+    ) -> Result<Vec<RequirementValue>, Infeasible> {
         let points = self.operating_points(design);
         let passed = points.iter().map(|it| {
             let passed = it.pass_trials(known.for_case_mut(it.case));
@@ -141,7 +141,12 @@ impl Problem {
 
     /// Whether a design meets the requirements that take many motions, in its own machine and in those within the tolerances that
     /// are known, in all cases.
-    pub(super) fn passes(&self, design: &Design, known: &CriticalMachines, effort: Effort) -> bool {
+    pub(super) fn passes(
+        &self,
+        design: &Design,
+        known: &CriticalMachines,
+        effort: TrialSize,
+    ) -> bool {
         self.operating_points(design).iter().all(|it| {
             let known = &known.for_case(it.case).tried;
             it.problem.passes_at_point(it.design, known, effort)
@@ -149,7 +154,7 @@ impl Problem {
     }
 
     /// The machines within the tolerances that were met last come first: they most likely fail.
-    fn passes_at_point(&self, design: &Design, others: &[Vec<f64>], effort: Effort) -> bool {
+    fn passes_at_point(&self, design: &Design, others: &[Vec<f64>], effort: TrialSize) -> bool {
         let spread = self.spread(&design.machine);
         let neighbours = spread.as_ref().map(|it| Neighbours::new(it, &design.orbit));
         let at = |neighbours: &Neighbours, at: &[f64]| {
@@ -169,11 +174,11 @@ impl Problem {
         &self,
         requirement: &Requirement,
         orbit: &Orbit,
-        effort: Effort,
-    ) -> Result<Met, OrbitError> {
-        let Effort { starts, angles } = effort;
+        effort: TrialSize,
+    ) -> Result<RequirementValue, OrbitError> {
+        let TrialSize { starts, angles } = effort;
         let watcher = &interrupt::watch;
-        let mut met = Met::of(*requirement);
+        let mut met = RequirementValue::of(*requirement);
         match requirement.figure {
             Figure::Certainty => {
                 let starts = self.established(orbit, starts)?;
@@ -198,14 +203,14 @@ impl Problem {
     }
 
     /// Whether it meets one: with few motions by what was counted, else by the lower end of its interval.
-    fn is_passed(&self, requirement: &Requirement, orbit: &Orbit, effort: Effort) -> bool {
+    fn is_passed(&self, requirement: &Requirement, orbit: &Orbit, effort: TrialSize) -> bool {
         let is_asked_for_one = (requirement.least, requirement.most) == (Some(1.0), None);
         if requirement.figure == Figure::RunUp && is_asked_for_one {
             let watcher = &interrupt::watch;
             return RunUp::is_possible(orbit, &self.run_up, effort.angles, watcher)
                 .unwrap_or(false);
         }
-        let is_met = |met: &Met| match effort.starts < STARTS {
+        let is_met = |met: &RequirementValue| match effort.starts < STARTS {
             true => requirement.is_met(met.value),
             false => met.is_met(),
         };
@@ -215,10 +220,10 @@ impl Problem {
                 return false;
             }
             let is_enough = |starts: &Establishment| {
-                is_met(&Met {
+                is_met(&RequirementValue {
                     value: starts.share,
                     starts: Some(*starts),
-                    ..Met::of(*requirement)
+                    ..RequirementValue::of(*requirement)
                 })
             };
             let enough = self.is_established(orbit, effort.starts, is_enough);
@@ -231,29 +236,32 @@ impl Problem {
 
 impl OperatingPoint<'_> {
     /// What its own machine has of the requirements that take many motions.
-    fn tried(&self) -> Result<Vec<Met>, OrbitError> {
+    fn tried(&self) -> Result<Vec<RequirementValue>, OrbitError> {
         let (case, orbit) = (self.case, &self.design.orbit);
         let own = self.problem.trials().map(|it| {
             let met = self.problem.tried_of(it, orbit, FULL)?;
-            Ok(Met { case, ..met })
+            Ok(RequirementValue { case, ..met })
         });
         own.collect()
     }
 
     /// What its own machine has of the requirements that take many motions, or of the certainty alone, where a few starts refute it.
-    fn tried_or_refuted(&self) -> Result<Vec<Met>, OrbitError> {
+    fn tried_or_refuted(&self) -> Result<Vec<RequirementValue>, OrbitError> {
         let few = self.refuted_certainty()?;
         few.map_or_else(|| self.tried(), |few| Ok(vec![few]))
     }
 
     /// What it has of the requirements that take many motions, if it meets them.
-    fn pass_trials(&self, known: &mut CriticalMachines) -> Result<Vec<Met>, Infeasible> {
+    fn pass_trials(
+        &self,
+        known: &mut CriticalMachines,
+    ) -> Result<Vec<RequirementValue>, Infeasible> {
         let (problem, design) = (&self.problem, self.design);
         let mut own = self.tried_or_refuted().map_err(Infeasible::unknown)?;
         for met in own.iter().filter(|it| !it.is_met()) {
             known.note_failed_trial(met.requirement.figure);
         }
-        if !own.iter().all(Met::is_met) {
+        if !own.iter().all(RequirementValue::is_met) {
             let reason = conflict(&design.machine, &own);
             return Err(Infeasible::new(violation(&own), reason));
         }

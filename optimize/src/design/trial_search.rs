@@ -16,7 +16,7 @@ use super::improve_catalogue::Catalogues;
 use super::problem::Problem;
 use super::space::digits;
 use super::trial::FULL;
-use super::zoned::Zoned;
+use super::zoned::ZonedMachine;
 use super::{Design, GAIN};
 
 /// Zones of the lattice, at most.
@@ -51,19 +51,19 @@ pub struct Resolution {
     pub place: f64,
 }
 
-/// That of [`Trials`].
+/// That of [`TrialSearch`].
 pub(super) const RESOLUTION: Resolution = Resolution {
     axes: LAST,
     place: 1.0 / (PLACES << HALVINGS) as f64,
 };
 
 /// The search for a design that passes its trials.
-pub(super) struct Trials<'a> {
+pub(super) struct TrialSearch<'a> {
     pub(super) problem: &'a Problem,
     pub(super) known: &'a CriticalMachines,
 }
 
-impl<'a> Trials<'a> {
+impl<'a> TrialSearch<'a> {
     /// The search with machines within the tolerances on which trials are made.
     pub(super) const fn new(problem: &'a Problem, known: &'a CriticalMachines) -> Self {
         Self { problem, known }
@@ -167,7 +167,7 @@ impl<'a> Trials<'a> {
     /// How far the best of a few motions along the zone of a point of the unit cube is from passing.
     fn least_violation(&self, unit: &[f64]) -> Option<f64> {
         let cases = self.problem.in_cases();
-        let zoned = Zoned::find(self.problem, &cases, &self.problem.axis_values(unit))?;
+        let zoned = ZonedMachine::find(self.problem, &cases, &self.problem.axis_values(unit))?;
         let window = zoned.window().ok()?;
         let places = (0..FEW_TRIES).map(|index| index as f64 / (FEW_TRIES - 1) as f64);
         let lacks = places.filter_map(|place| {
@@ -193,7 +193,7 @@ impl<'a> Trials<'a> {
         direct_search(self.problem, best, LAST, |it| &it.unit, better)
     }
 
-    /// As [`Trials::nearby`], but from what linear models lead to from each first.
+    /// As [`TrialSearch::nearby`], but from what linear models lead to from each first.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
         let starts = self.starts(from);
         self.better_of(self.improve(&starts, self.best_led_to(&starts)))

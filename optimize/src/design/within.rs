@@ -11,7 +11,7 @@ use super::exact::Linearization;
 const CHANGE: f64 = 1e-2;
 
 /// How the parameters of one machine of the tolerances change, in SI units.
-pub(super) struct Rows {
+pub(super) struct ParameterJacobian {
     /// With each coordinate of the search.
     by: Vec<Vec<f64>>,
     /// On the way out from the nominal machine.
@@ -20,7 +20,7 @@ pub(super) struct Rows {
     parameters: Vec<Parameter>,
 }
 
-impl Rows {
+impl ParameterJacobian {
     /// At some coordinates of the box of tolerances.
     pub(super) fn at(about: &Linearization<'_>, coordinates: &[f64]) -> Option<Self> {
         let Linearization { problem, at, .. } = about;

@@ -3,16 +3,16 @@
 use softstop::Parameter;
 
 use super::coordinates::Coordinates;
-use super::local::{Local, Scores, local};
+use super::local::{LocalModel, Scores, local};
 use super::problem::Problem;
-use super::search::Found;
+use super::search::SearchResult;
 
 /// Derivative by a whole range, in units of the value or its bound, that is none.
 const ROUNDING: f64 = 1e-9;
 /// Share of its range by which a parameter is moved, so that no extremum is taken for no effect.
 const STEP: f64 = 0.1;
 
-impl Found {
+impl SearchResult {
     /// The searched parameters, but for catalogues, by which no score and nothing that is required of the motion changes at
     /// the design; none if a trial holds it back, which has no derivatives.
     pub fn without_effect(&self, problem: &Problem) -> Vec<Parameter> {
@@ -25,7 +25,7 @@ impl Found {
         let has_failed = self.known.all_failed().next().is_some();
         let here = look(&start).filter(|_| !has_failed);
         let Some(here) = here else { return Vec::new() };
-        let score_of = |it: &Local| it.score(&problem.objective).value;
+        let score_of = |it: &LocalModel| it.score(&problem.objective).value;
         let score = score_of(&here);
         let is_idle = |index: usize| {
             let mut scores = here.scores.iter().flat_map(Scores::all);

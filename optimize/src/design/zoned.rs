@@ -4,25 +4,25 @@ use softstop::{Dimension, Machine};
 use softstop_dynamics::Zone;
 use softstop_dynamics::zone::ZoneError;
 
-use super::operating_point::At;
+use super::operating_point::SearchPoint;
 use super::problem::Problem;
 use super::space::Interval;
 use super::{Design, Infeasible, distance_from_zones, finite_or};
 
 /// A machine with its zone.
-pub(super) struct Zoned<'a> {
+pub(super) struct ZonedMachine<'a> {
     pub problem: &'a Problem,
     pub machine: Machine,
     pub zone: Zone,
     /// The machine in each case.
-    pub cases: Vec<Zoned<'a>>,
+    pub cases: Vec<ZonedMachine<'a>>,
 }
 
 impl Design {
     /// The motion at a point of the search, without the values of what is sought; none if there is no stable one.
-    pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
+    pub(super) fn find(problem: &Problem, at: &SearchPoint<'_>) -> Option<Self> {
         let cases = problem.in_cases();
-        let zoned = Zoned::find(problem, &cases, &problem.axis_values(at.unit))?;
+        let zoned = ZonedMachine::find(problem, &cases, &problem.axis_values(at.unit))?;
         let given = match &problem.drawing {
             Some(drawing) => Self::find(drawing, at)?.drive_frequency(),
             None => f64::NAN,
@@ -32,7 +32,7 @@ impl Design {
     }
 }
 
-impl<'a> Zoned<'a> {
+impl<'a> ZonedMachine<'a> {
     /// A machine with what was found as its zone, without its cases.
     pub fn new(
         problem: &'a Problem,

@@ -9,7 +9,7 @@ use softstop_console::failure::Failure;
 use toml::Table;
 
 use super::toml_leaves::{leaves, number};
-use super::vary::Searched;
+use super::vary::SearchSpace;
 use crate::design::case::{Case, DRAWING};
 use crate::design::problem::{Tolerance, Width};
 
@@ -104,7 +104,7 @@ fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure>
 /// Refuses cases that change what is searched, or nothing.
 pub(super) fn check(
     (machine, cases): (&Machine, &[Case]),
-    searched: &Searched,
+    searched: &SearchSpace,
     tolerances: &[Tolerance],
 ) -> Result<(), Failure> {
     for (case, index) in zip(cases, 1..) {

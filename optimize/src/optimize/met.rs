@@ -2,13 +2,16 @@
 
 use softstop_console::failure::Failure;
 
-use crate::design::judge::Met;
+use crate::design::judge::RequirementValue;
 use crate::design::operating_point::OperatingPoint;
-use crate::design::search::Found;
+use crate::design::search::SearchResult;
 use crate::design::{Design, Problem};
 
 /// What a design has of all that is required, in its own machine and in the worst within the tolerances, in all cases.
-pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure> {
+pub(super) fn met(
+    problem: &Problem,
+    found: &SearchResult,
+) -> Result<Vec<RequirementValue>, Failure> {
     let design = &found.design;
     let mut met = Vec::new();
     for OperatingPoint {
@@ -18,7 +21,7 @@ pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure>
     } in problem.operating_points(design)
     {
         let own = of_motion(&problem, design)?.into_iter();
-        met.extend(own.map(|it| Met { case, ..it }));
+        met.extend(own.map(|it| RequirementValue { case, ..it }));
     }
     met.extend(match found.tried.is_empty() {
         true => problem.tried(design).map_err(anyhow::Error::from)?,
@@ -28,7 +31,7 @@ pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure>
 }
 
 /// What one motion tells, without cases.
-fn of_motion(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
+fn of_motion(problem: &Problem, design: &Design) -> Result<Vec<RequirementValue>, Failure> {
     let motion = design.judged().map_err(anyhow::Error::from)?;
     let mut met = Vec::from_iter(problem.share(&motion));
     let worst = problem.worst_of_required(design);
@@ -39,7 +42,7 @@ fn of_motion(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
         let margin = |it: &f64| met.requirement.margin(*it);
         let values = own.map(|(.., worst)| worst.value);
         let worst = values.min_by(|a, b| margin(a).total_cmp(&margin(b)));
-        Met { worst, ..met }
+        RequirementValue { worst, ..met }
     }));
     Ok(met)
 }

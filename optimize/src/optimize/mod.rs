@@ -44,7 +44,7 @@ use outcome::Outcome;
 use packing::{can_be_packed, named};
 use solve::solve;
 use task::Job;
-use vary::Variable;
+use vary::VariedParameter;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -132,7 +132,7 @@ pub struct OptimizeArguments {
     /// [default: 1:30 times k1], clearance [default: 2:22 times F0/k1], excitation.frequency [default: the whole
     /// zone] or any other; repeatable
     #[arg(long, value_name = "NAME=VALUE|LOW:HIGH")]
-    pub vary: Vec<Variable>,
+    pub vary: Vec<VariedParameter>,
     /// Task in a TOML file (softstop schema task says what it may hold); the command line has the last word
     #[arg(long, value_name = "FILE.toml")]
     pub config: Option<PathBuf>,

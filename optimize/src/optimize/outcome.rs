@@ -11,7 +11,7 @@ use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
 use crate::design::Design;
-use crate::design::judge::Met;
+use crate::design::judge::RequirementValue;
 use crate::design::solution::Solution;
 
 /// Places of the erosion profile beside the design's.
@@ -77,7 +77,7 @@ pub struct Outcome {
     /// Searched parameters that change nothing of what is sought and required.
     pub without_effect: Vec<Parameter>,
     /// What was required, and what the design has of it.
-    pub met: Vec<Met>,
+    pub met: Vec<RequirementValue>,
     /// Zones that were computed.
     pub evaluations: u64,
     /// Whether the run was asked to end.

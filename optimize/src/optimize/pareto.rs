@@ -8,9 +8,9 @@ use softstop_dynamics::parallel;
 use super::met::met;
 use super::task::Job;
 use crate::design::Problem;
-use crate::design::judge::Met;
+use crate::design::judge::RequirementValue;
 use crate::design::pareto::Pareto;
-use crate::robust::{FITTED, Settings, Verdict, verify};
+use crate::robust::{FITTED, Verdict, VerifySettings, verify};
 
 /// Machines within the tolerances of each design at least, and in units of the machines among which one may violate a
 /// requirement: so many that the share of a design with half of that is surely small enough.
@@ -23,7 +23,7 @@ pub(super) fn judge(problem: &Problem, front: &mut Pareto) {
     let judged = parallel::map(&front.points, |it| {
         let met = met(problem, &it.found).ok()?;
         let has_box = || problem.has_box(&it.found.design).is_ok();
-        let is_whole = met.iter().all(Met::is_met) && has_box();
+        let is_whole = met.iter().all(RequirementValue::is_met) && has_box();
         Some((met, is_whole))
     });
     let mut is_kept = Vec::new();
@@ -48,7 +48,7 @@ pub(super) fn look_at_machines(job: &Job, front: &mut Pareto) -> Result<(), Fail
         return Ok(());
     }
     let machines = machines_of_each(&problem, (job.samples, points.len()));
-    let settings = Settings::of_machines(machines);
+    let settings = VerifySettings::of_machines(machines);
     let required = problem.required_of_each();
     let progress = Progress::new((machines * points.len()) as u64, "machines of the front");
     let mut is_kept = Vec::new();

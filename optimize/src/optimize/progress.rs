@@ -6,7 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::design::Problem;
-use crate::design::search::Watch;
+use crate::design::search::SearchMonitor;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -14,7 +14,7 @@ use softstop_console::progress::Progress;
 const BEAT: Duration = Duration::from_secs(1);
 
 /// Watches a search.
-pub(super) struct Best<'a> {
+pub(super) struct SearchProgress<'a> {
     problem: &'a Problem,
     /// The progress over zones, and the best value; none once a front is searched.
     zones: Mutex<Option<(Progress, Option<f64>)>>,
@@ -23,7 +23,7 @@ pub(super) struct Best<'a> {
     budget: u64,
 }
 
-impl<'a> Best<'a> {
+impl<'a> SearchProgress<'a> {
     pub(super) fn new(problem: &'a Problem, evaluations: u64, budget: u64) -> Self {
         Self {
             problem,
@@ -59,7 +59,7 @@ impl<'a> Best<'a> {
     }
 }
 
-impl Watch for Best<'_> {
+impl SearchMonitor for SearchProgress<'_> {
     fn evaluated(&self, value: Option<f64>) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
         let Ok(mut zones) = self.zones.lock() else {

@@ -10,13 +10,13 @@ use softstop_dynamics::run_up::{RunUp, RunUpSettings};
 use super::met::met;
 use super::outcome::{Interrupted, Outcome, PLACES, for_picture};
 use super::pareto;
-use super::progress::Best;
+use super::progress::SearchProgress;
 use super::task::Job;
 use crate::design::Design;
 use crate::design::figure::Figure;
-use crate::design::judge::Met;
+use crate::design::judge::RequirementValue;
 use crate::design::search::SearchError;
-use crate::design::solution::{Beside, Solution};
+use crate::design::solution::{SideTasks, Solution};
 use crate::design::trial::{ANGLES, STARTS};
 
 /// Searches, and looks at what was found; a search that is interrupted ends with its best design, if that is as asked.
@@ -25,8 +25,8 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         .budget
         .windows()
         .saturating_mul(job.settings.evaluations);
-    let best = Best::new(&job.problem, job.settings.evaluations, budget);
-    let beside = Beside {
+    let best = SearchProgress::new(&job.problem, job.settings.evaluations, budget);
+    let beside = SideTasks {
         relaxed: job.samples > 0 && job.problem.has_tolerances(),
         fronts: job.report,
         machines: job.samples,
@@ -64,7 +64,9 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     }
     let met = met?;
     // Of an unfinished search nothing is written that is not as asked.
-    let is_whole = |design: &Design| met.iter().all(Met::is_met) && problem.has_box(design).is_ok();
+    let is_whole = |design: &Design| {
+        met.iter().all(RequirementValue::is_met) && problem.has_box(design).is_ok()
+    };
     if interrupted == Some(Interrupted::Search) && !is_whole(&solution.found.design) {
         return Err(interrupted_without_design());
     }

@@ -11,18 +11,18 @@ use super::outcome::Outcome;
 use super::task::Job;
 use crate::design::Design;
 use crate::design::figure::{Figure, Sense};
-use crate::design::judge::Met;
+use crate::design::judge::RequirementValue;
 use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
-    AbsoluteTolerance, CaseVerdict, EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter,
-    Sensitivities, Settings, Tolerances, Verdict, nearest, scatter, sensitivities, verify,
+    AbsoluteTolerance, CaseVerdict, EVEN, FITTED, Manifold, Nearest, Norm, SampleSize, Scatter,
+    Sensitivities, Tolerances, Verdict, VerifySettings, nearest, scatter, sensitivities, verify,
     verify_in_cases, worst,
 };
 
 /// A design's machines within its tolerances.
 #[derive(Debug)]
-pub struct Study {
+pub struct ToleranceStudy {
     /// The tolerances, in SI units.
     pub tolerances: Vec<AbsoluteTolerance>,
     /// What is required of each of its machines, in the order of the verdict.
@@ -41,12 +41,12 @@ pub struct Study {
     /// Whose scatter it is.
     pub scatter: Option<Scatter>,
     /// What the task without tolerances leads to.
-    pub without: Option<Without>,
+    pub without: Option<DesignWithoutTolerances>,
 }
 
 /// The best design if nothing has a tolerance and nothing is tried, and what becomes of it with them.
 #[derive(Debug)]
-pub struct Without {
+pub struct DesignWithoutTolerances {
     /// The design.
     pub design: Design,
     /// What the machines within the tolerances about it have shown.
@@ -56,7 +56,7 @@ pub struct Without {
     pub slowest: f64,
 }
 
-impl Study {
+impl ToleranceStudy {
     /// The factor by which all tolerances may grow in the drawing or in a case until the motion is lost, if that is looked for so far.
     pub(crate) fn factor(&self, case: Option<usize>) -> Option<f64> {
         let nearest = &self.nearest[case.map_or(0, |index| index + 1)];
@@ -64,7 +64,7 @@ impl Study {
     }
 
     /// Takes note of the share of the machines that violate each requirement, and of its interval.
-    pub(crate) fn note_violating(&self, problem: &Problem, all: &mut [Met]) {
+    pub(crate) fn note_violating(&self, problem: &Problem, all: &mut [RequirementValue]) {
         let machines = self.verdict.machines;
         let is_normal = problem.has_normal_tolerances();
         for met in all {
@@ -84,7 +84,7 @@ const FARTHEST: f64 = 3.0;
 const FEWER: usize = 1 << 11;
 
 /// Looks at machines all over the tolerances, without reserve; none if everything is exact.
-pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failure> {
+pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<ToleranceStudy>, Failure> {
     let design = outcome.design();
     let problem = job.problem.as_built();
     let spread = problem.spread(&design.machine);
@@ -97,7 +97,7 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
     };
     let (nominal, watcher) = (&design.orbit, &interrupt::watch);
     let progress = Progress::new(job.samples as u64, "machines");
-    let settings = Settings::of_machines(job.samples);
+    let settings = VerifySettings::of_machines(job.samples);
     let required = problem.required_of_each();
     let Some(drawn) = problem.drawn(design) else {
         return Ok(None);
@@ -123,8 +123,8 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
     let sensitivities =
         sensitivities(&spread, nominal, &design.zone).map_err(anyhow::Error::from)?;
     let motions = (nominal, &design.zone);
-    let scatter = scatter(&spread.over(EVEN), motions, Effort::default(), watcher);
-    let study = Study {
+    let scatter = scatter(&spread.over(EVEN), motions, SampleSize::default(), watcher);
+    let study = ToleranceStudy {
         slowest: slowest(&spread, nominal, &verdict).map_err(stopped)?,
         verdict,
         required,
@@ -155,15 +155,18 @@ fn slowest(spread: &Tolerances, nominal: &Orbit, verdict: &Verdict) -> Result<f6
 }
 
 /// What becomes of the best design without tolerances with them; none if it has no box of them.
-fn without(problem: &Problem, design: &Design) -> Result<Option<Without>, OrbitError> {
+fn without(
+    problem: &Problem,
+    design: &Design,
+) -> Result<Option<DesignWithoutTolerances>, OrbitError> {
     let Some(spread) = problem.spread(&design.machine) else {
         return Ok(None);
     };
-    let settings = Settings::of_machines(FEWER);
+    let settings = VerifySettings::of_machines(FEWER);
     let drawn = spread.over(FITTED);
     let verdict = verify(&drawn, &design.orbit, (settings, &[]), &interrupt::watch)?;
     let CaseVerdict { lost, slowest, .. } = verdict.drawing;
-    Ok(Some(Without {
+    Ok(Some(DesignWithoutTolerances {
         // Steps down end wherever the motion is lost.
         slowest: match lost {
             0 => self::slowest(&spread, &design.orbit, &verdict)?,

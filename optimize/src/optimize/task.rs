@@ -21,11 +21,11 @@ use super::require::read_requirements;
 use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::{deviations, has_tolerances, refuse_too_wide, tolerances};
-use super::vary::{Searched, held, searched, variables};
+use super::vary::{SearchSpace, held, searched, variables};
 use crate::design::Problem;
 use crate::design::figure::Figure;
 use crate::design::problem::{Objective, Tolerance};
-use crate::design::search::{LEAST_EVALUATIONS, Settings};
+use crate::design::search::{LEAST_EVALUATIONS, SearchSettings};
 use crate::design::space::Axis;
 
 const MARGIN: f64 = 0.25;
@@ -37,7 +37,7 @@ const OUTPUT: &str = "softstop-design";
 #[derive(Debug)]
 pub(super) struct Job {
     pub problem: Problem,
-    pub settings: Settings,
+    pub settings: SearchSettings,
     /// Machines looked at within the tolerances.
     pub samples: usize,
     /// Work that the search may cost for each evaluation.
@@ -89,7 +89,7 @@ impl Job {
         )?;
         let searched = searched_by(arguments, &task, &machine)?;
         cases::check((&machine, &problem.cases), &searched, tolerances).map_err(located)?;
-        let Searched {
+        let SearchSpace {
             axes,
             frequency,
             links,
@@ -127,7 +127,7 @@ impl Job {
         };
         Ok(Self {
             problem,
-            settings: Settings { evaluations },
+            settings: SearchSettings { evaluations },
             samples: arguments.samples,
             budget: arguments.budget,
             report: !arguments.no_report,
@@ -199,7 +199,7 @@ fn searched_by(
     arguments: &OptimizeArguments,
     task: &TaskSpec,
     machine: &Machine,
-) -> Result<Searched, Failure> {
+) -> Result<SearchSpace, Failure> {
     let line = [
         arguments.vary.clone(),
         held(machine, arguments.machine.keys()),
@@ -225,10 +225,10 @@ fn has_effect(machine: &Machine, axes: &[Axis]) -> Result<(), Failure> {
 }
 
 /// A file and its text.
-type Text = (PathBuf, String);
+type TaskText = (PathBuf, String);
 
 /// The task of `--config`, or the one that stands beside the machine in its file; with that file.
-fn task(arguments: &OptimizeArguments) -> Result<(TaskSpec, Option<Text>), Failure> {
+fn task(arguments: &OptimizeArguments) -> Result<(TaskSpec, Option<TaskText>), Failure> {
     let machine = arguments.machine.machine.as_ref();
     let file = machine.filter(|path| PaperMachine::called(path).is_none());
     let beside = |path: &PathBuf| {

@@ -21,14 +21,14 @@ const USUAL: [(Parameter, [f64; 2]); 2] = [
 
 /// What is said of one parameter, by a key of the machine's file or a letter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Variable {
+pub struct VariedParameter {
     pub(super) key: String,
-    pub(super) values: Values,
+    pub(super) values: AllowedValues,
 }
 
 /// The values that a parameter may take, in units of its key.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Values {
+pub enum AllowedValues {
     /// It is searched from one value to another; equal ones hold it.
     Range([f64; 2]),
     /// It is one of these, in rising order.
@@ -48,7 +48,7 @@ pub struct Follow {
 }
 
 /// `NAME=VALUE` or `NAME=LOW:HIGH`.
-impl FromStr for Variable {
+impl FromStr for VariedParameter {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -62,16 +62,18 @@ impl FromStr for Variable {
         let (low, high) = values.split_once(':').unwrap_or((values, values));
         Ok(Self {
             key: key.trim().to_owned(),
-            values: Values::Range([number(low)?, number(high)?]),
+            values: AllowedValues::Range([number(low)?, number(high)?]),
         })
     }
 }
 
-impl fmt::Display for Variable {
+impl fmt::Display for VariedParameter {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.values {
-            Values::Range([low, high]) if low == high => write!(formatter, "{}={low}", self.key),
-            Values::Range([low, high]) => write!(formatter, "{}={low}:{high}", self.key),
+            AllowedValues::Range([low, high]) if low == high => {
+                write!(formatter, "{}={low}", self.key)
+            }
+            AllowedValues::Range([low, high]) => write!(formatter, "{}={low}:{high}", self.key),
             _ => formatter.write_str(&self.key),
         }
     }
@@ -84,7 +86,7 @@ struct CatalogueTable {
     values: Vec<f64>,
 }
 
-impl Values {
+impl AllowedValues {
     /// What a key's value says; none if it says nothing of values.
     fn read(key: &str, value: &Value) -> Result<Option<Self>, Failure> {
         let key = format!("vary.{key}");
@@ -106,36 +108,39 @@ impl Values {
 }
 
 /// What `[vary]` holds: ranges first, then catalogues, in the file's order of keys.
-pub(super) fn variables(table: &Table) -> Result<Vec<Variable>, Failure> {
+pub(super) fn variables(table: &Table) -> Result<Vec<VariedParameter>, Failure> {
     let one = |(key, value): (String, &Value)| {
         if let Some(slopes) = slopes(&key) {
             return Err(Failure::usage(format!("vary.{slopes}")));
         }
-        let Some(values) = Values::read(&key, value)? else {
+        let Some(values) = AllowedValues::read(&key, value)? else {
             return Err(Failure::usage(format!(
                 "vary.{key} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
                  a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units{}",
                 rpm_value_hint(&value.to_string())
             )));
         };
-        Ok(Variable { key, values })
+        Ok(VariedParameter { key, values })
     };
-    let all: Result<Vec<Variable>, Failure> = leaves(table).into_iter().map(one).collect();
+    let all: Result<Vec<VariedParameter>, Failure> = leaves(table).into_iter().map(one).collect();
     let mut all = all?;
-    all.sort_by_key(|it| !matches!(it.values, Values::Range(_)));
+    all.sort_by_key(|it| !matches!(it.values, AllowedValues::Range(_)));
     Ok(all)
 }
 
 /// The machine's own values of these keys, held: those that the search would choose.
-pub(super) fn held<'a>(machine: &Machine, keys: impl Iterator<Item = &'a str>) -> Vec<Variable> {
+pub(super) fn held<'a>(
+    machine: &Machine,
+    keys: impl Iterator<Item = &'a str>,
+) -> Vec<VariedParameter> {
     let one = |key| {
         let parameter = machine.parameter(key).ok()?;
         let usual = USUAL.iter().any(|(usual, _)| *usual == parameter);
         let is_searched = usual || parameter == Parameter::Frequency;
         let value = machine.value(parameter).filter(|_| is_searched)?;
-        Some(Variable {
+        Some(VariedParameter {
             key: machine.name(parameter).to_owned(),
-            values: Values::Range([value, value]),
+            values: AllowedValues::Range([value, value]),
         })
     };
     keys.filter_map(one).collect()
@@ -143,7 +148,7 @@ pub(super) fn held<'a>(machine: &Machine, keys: impl Iterator<Item = &'a str>) -
 
 /// What is searched, and what follows it, in the machine's own units.
 #[derive(Debug)]
-pub(super) struct Searched {
+pub(super) struct SearchSpace {
     /// All but the drive's frequency.
     pub axes: Vec<Axis>,
     /// The drive's frequency.
@@ -156,28 +161,28 @@ pub(super) struct Searched {
 /// parameters are searched as well, if that is asked for and nothing else is said of them.
 pub(super) fn searched(
     machine: &Machine,
-    layers: &[Vec<Variable>],
+    layers: &[Vec<VariedParameter>],
     with_usual: bool,
-) -> Result<Searched, Failure> {
+) -> Result<SearchSpace, Failure> {
     let (mut said, mut links) = (Vec::<Axis>::new(), Vec::<Link>::new());
     for layer in layers {
         let mut own = Vec::new();
         for variable in layer {
             let (parameter, unit) = free_parameter(machine, "vary", &variable.key)?;
             let axis = match &variable.values {
-                Values::Follows(follow) => {
+                AllowedValues::Follows(follow) => {
                     links.push(link(machine, (&variable.key, parameter, unit), follow)?);
                     continue;
                 }
-                Values::Range(ends) => {
+                AllowedValues::Range(ends) => {
                     let [low, high] = ends.map(|end| end * unit);
                     Axis::new(parameter, Interval { low, high })
                 }
-                Values::Catalogue(_) if parameter == Parameter::Frequency => {
+                AllowedValues::Catalogue(_) if parameter == Parameter::Frequency => {
                     let what = "can be a range or a value to hold, not a catalogue";
                     return Err(wrong(&variable.key, what));
                 }
-                Values::Catalogue(values) => {
+                AllowedValues::Catalogue(values) => {
                     Axis::of_catalogue(parameter, values.iter().map(|it| it * unit).collect())
                 }
             };
@@ -208,7 +213,7 @@ pub(super) fn searched(
         }
     }
     check_links(machine, &links, &axes)?;
-    Ok(Searched {
+    Ok(SearchSpace {
         axes,
         frequency,
         links,

@@ -12,7 +12,7 @@ use super::figure::Curve;
 use crate::placed::{fold, grazing};
 
 /// The z = 1 motions of a zone, and those below it where it begins at g0.
-pub(super) struct Motions {
+pub(super) struct ZoneBranches {
     above: Vec<BranchPoint>,
     below: Vec<BranchPoint>,
     /// Frequencies in rad/s of g0, of `s_SN` and of where the period doubles, as far as there are such.
@@ -28,7 +28,7 @@ const FARTHEST: f64 = 4.0;
 /// Points put in between two of a branch, for a curve without visible corners.
 const BETWEEN: u32 = 8;
 
-impl Motions {
+impl ZoneBranches {
     pub(super) fn of(zone: &Zone) -> Self {
         let (below, flip) = match zone.begins_at_g0() {
             true => below(zone).unwrap_or_default(),

@@ -32,7 +32,7 @@ impl Estimate {
 
 /// What an input has to do with an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Index {
+pub struct SobolIndex {
     /// Its share alone.
     pub first: Estimate,
     /// Its share together with others.
@@ -41,14 +41,14 @@ pub struct Index {
 
 /// How many points are looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Effort {
+pub struct SampleSize {
     /// Points of a sequence, a power of two of at most 65,536: each asks for the outputs once for each input, and twice more.
     pub points: usize,
     /// Sequences, at least 2.
     pub sequences: usize,
 }
 
-impl Default for Effort {
+impl Default for SampleSize {
     fn default() -> Self {
         Self {
             points: 1 << 10,
@@ -61,11 +61,11 @@ impl Default for Effort {
 /// does not change at all, or if the watcher, told how many points are done, wants to stop.
 pub fn indices<const N: usize>(
     dimensions: usize,
-    effort: Effort,
+    effort: SampleSize,
     outputs: impl Fn(&[f64]) -> Option<[f64; N]> + Sync,
     watcher: Monitor<'_>,
-) -> Option<[Vec<Index>; N]> {
-    let Effort { points, sequences } = effort;
+) -> Option<[Vec<SobolIndex>; N]> {
+    let SampleSize { points, sequences } = effort;
     let points = points.clamp(2, SEQUENCE_LENGTH);
     let sequences = sequences.max(2);
     let mut estimates: [Vec<Vec<[f64; 2]>>; N] = std::array::from_fn(|_| Vec::new());
@@ -73,9 +73,9 @@ pub fn indices<const N: usize>(
         let first = sequence * SEQUENCE_LENGTH;
         let rows = parallel::try_map_indices(points, &|index| {
             let point = sobol_point(first + index, 2 * dimensions);
-            Row::new(&point, &outputs).ok_or(())
+            SaltelliRow::new(&point, &outputs).ok_or(())
         });
-        let rows: Vec<Row<N>> = rows.ok()?;
+        let rows: Vec<SaltelliRow<N>> = rows.ok()?;
         for (output, estimates) in estimates.iter_mut().enumerate() {
             estimates.push(shares(&rows, output, dimensions)?);
         }
@@ -86,19 +86,19 @@ pub fn indices<const N: usize>(
     }
     Some(estimates.map(|all| {
         (0..dimensions)
-            .map(|input| Index::of(&all, input))
+            .map(|input| SobolIndex::of(&all, input))
             .collect()
     }))
 }
 
 /// The outputs at a point of A, of B, and at those between.
-struct Row<const N: usize> {
+struct SaltelliRow<const N: usize> {
     a: [f64; N],
     b: [f64; N],
     between: Vec<[f64; N]>,
 }
 
-impl<const N: usize> Row<N> {
+impl<const N: usize> SaltelliRow<N> {
     fn new(point: &[f64], outputs: &impl Fn(&[f64]) -> Option<[f64; N]>) -> Option<Self> {
         let (a, b) = point.split_at(point.len() / 2);
         let between = |input: usize| {
@@ -116,7 +116,7 @@ impl<const N: usize> Row<N> {
 
 /// First-order and total shares of all inputs in an output's variance.
 fn shares<const N: usize>(
-    rows: &[Row<N>],
+    rows: &[SaltelliRow<N>],
     output: usize,
     dimensions: usize,
 ) -> Option<Vec<[f64; 2]>> {
@@ -136,7 +136,7 @@ fn shares<const N: usize>(
     (variance > 0.0).then(|| (0..dimensions).map(of_input).collect())
 }
 
-impl Index {
+impl SobolIndex {
     /// From the estimates of all sequences.
     fn of(all: &[Vec<[f64; 2]>], input: usize) -> Self {
         let estimate = |which: usize| {

@@ -3,7 +3,7 @@
 use std::mem::{Discriminant, discriminant};
 
 use super::Tolerances;
-use crate::spread::{Reached, along, critical_normal, free_normal};
+use crate::spread::{HomotopyEnd, along, critical_normal, free_normal};
 use softstop::MotionError;
 use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
@@ -39,7 +39,7 @@ pub enum Manifold {
 
 /// Where a direction meets a manifold.
 #[derive(Debug, Clone)]
-pub(super) struct Meeting {
+pub(super) struct LossPoint {
     pub manifold: Manifold,
     /// Of length 1.
     pub direction: Vec<f64>,
@@ -48,7 +48,7 @@ pub(super) struct Meeting {
     point: Option<BranchPoint>,
 }
 
-impl Meeting {
+impl LossPoint {
     /// The coordinates of the machine there.
     pub fn at(&self) -> Vec<f64> {
         let parts = self.direction.iter();
@@ -56,14 +56,14 @@ impl Meeting {
     }
 }
 
-pub(super) struct Search<'a> {
+pub(super) struct LossSearch<'a> {
     pub spread: &'a Tolerances,
     pub nominal: &'a Orbit,
     pub norm: Norm,
     pub farthest: f64,
 }
 
-impl Search<'_> {
+impl LossSearch<'_> {
     /// Along the axes, all around, and where the borders over the drive's frequency are the nearest by their normals.
     pub fn directions(&self) -> Vec<Vec<f64>> {
         let dimensions = self.spread.dimensions();
@@ -106,12 +106,12 @@ impl Search<'_> {
     }
 
     /// Where the motion is lost in a direction.
-    pub fn meet(&self, direction: &[f64]) -> Option<Meeting> {
+    pub fn meet(&self, direction: &[f64]) -> Option<LossPoint> {
         let reached = along(self.spread, self.nominal, direction, self.farthest);
-        let Reached {
+        let HomotopyEnd {
             share, loss, point, ..
         } = reached.ok()?;
-        Some(Meeting {
+        Some(LossPoint {
             manifold: Manifold::Motion(loss.filter(is_loss)?),
             direction: direction.to_vec(),
             share,
@@ -127,7 +127,7 @@ impl Search<'_> {
     }
 
     /// Where hysteresis is lost in a direction; none if the nominal machine has none.
-    pub fn meet_free(&self, direction: &[f64]) -> Option<Meeting> {
+    pub fn meet_free(&self, direction: &[f64]) -> Option<LossPoint> {
         let above = |share: f64| {
             let at: Vec<f64> = direction.iter().map(|part| share * part).collect();
             self.above_free(&at)
@@ -152,7 +152,7 @@ impl Search<'_> {
                 false => high = middle,
             }
         }
-        Some(Meeting {
+        Some(LossPoint {
             manifold: Manifold::Hysteresis,
             direction: direction.to_vec(),
             share: high,
@@ -160,7 +160,7 @@ impl Search<'_> {
         })
     }
 
-    pub fn meet_again(&self, manifold: &Manifold, direction: &[f64]) -> Option<Meeting> {
+    pub fn meet_again(&self, manifold: &Manifold, direction: &[f64]) -> Option<LossPoint> {
         match manifold {
             Manifold::Motion(_) => self.meet(direction),
             Manifold::Hysteresis => self.meet_free(direction),
@@ -180,7 +180,7 @@ impl Search<'_> {
 
     /// The manifold's normal where a direction meets it, outwards: exact at g0, folds and flips of motions that have
     /// derivatives.
-    pub fn normal(&self, here: &Meeting) -> Vec<f64> {
+    pub fn normal(&self, here: &LossPoint) -> Vec<f64> {
         let critical = |test| {
             let point = BranchPoint {
                 parameter: self.spread.scene(&here.at()).excitation.frequency,
@@ -201,7 +201,7 @@ impl Search<'_> {
 
     /// The same by how the share changes with the direction, over central differences; a part along which the manifold is
     /// not met again is left out.
-    fn differenced(&self, here: &Meeting) -> Vec<f64> {
+    fn differenced(&self, here: &LossPoint) -> Vec<f64> {
         let share = |index: usize, change: f64| {
             let mut direction = here.direction.clone();
             direction[index] += change;

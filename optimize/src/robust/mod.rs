@@ -16,11 +16,11 @@ mod screen;
 mod verify;
 mod worst;
 
-pub use indices::{Effort, Estimate, Index, indices};
+pub use indices::{Estimate, SampleSize, SobolIndex, indices};
 pub use meeting::{Manifold, Norm};
 pub use nearest::{Nearest, nearest};
 pub use scatter::{Scatter, Sensitivities, scatter, sensitivities};
-pub use verify::{CaseVerdict, Settings, Verdict, verify, verify_in_cases};
+pub use verify::{CaseVerdict, Verdict, VerifySettings, verify, verify_in_cases};
 pub use worst::{Worst, worst};
 
 pub use crate::spread::{

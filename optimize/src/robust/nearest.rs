@@ -17,7 +17,7 @@ use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
 use super::corners::corners;
-use super::meeting::{Manifold, Meeting, Norm, Search, dot, is_loss, same};
+use super::meeting::{LossPoint, LossSearch, Manifold, Norm, dot, is_loss, same};
 
 /// Steps towards a nearest point, and the least share of one.
 const STEPS: usize = 40;
@@ -51,7 +51,7 @@ pub fn nearest(
     watcher: Monitor<'_>,
 ) -> Result<Vec<Nearest>, OrbitError> {
     along(spread, nominal, &vec![0.0; spread.dimensions()], 1e-3)?;
-    let search = Search {
+    let search = LossSearch {
         spread,
         nominal,
         norm,
@@ -94,16 +94,17 @@ pub(crate) fn first_losses(spread: &Tolerances, nominal: &Orbit) -> Vec<(Vec<f64
     parallel::filter_map(&ends, lost)
 }
 
-impl Search<'_> {
+impl LossSearch<'_> {
     /// The nearest machine of each manifold at which the motion is lost, from the nearest of those that were met.
     fn of_motion(
         &self,
-        mut met: Vec<Meeting>,
+        mut met: Vec<LossPoint>,
         watcher: Monitor<'_>,
     ) -> Result<Vec<Nearest>, OrbitError> {
         let mut found: Vec<Nearest> = Vec::new();
         loop {
-            let is_new = |it: &Meeting| found.iter().all(|own| !same(&own.manifold, &it.manifold));
+            let is_new =
+                |it: &LossPoint| found.iter().all(|own| !same(&own.manifold, &it.manifold));
             met.retain(is_new);
             let nearest = (0..met.len()).min_by(|a, b| met[*a].share.total_cmp(&met[*b].share));
             let Some(nearest) = nearest else {
@@ -117,8 +118,8 @@ impl Search<'_> {
     /// Goes to a nearest point of the manifold; what other ones are met on the way is kept.
     fn descend(
         &self,
-        start: Meeting,
-        others: &mut Vec<Meeting>,
+        start: LossPoint,
+        others: &mut Vec<LossPoint>,
         watcher: Monitor<'_>,
     ) -> Result<Nearest, OrbitError> {
         let mut here = start;

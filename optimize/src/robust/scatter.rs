@@ -9,7 +9,7 @@ use softstop_dynamics::zone::{ZoneError, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Tolerances;
-use super::indices::{Effort, Index, indices};
+use super::indices::{SampleSize, SobolIndex, indices};
 use super::worst::nominal_slopes;
 
 /// How the motion and its margins change with each coordinate, by as much as its tolerance.
@@ -50,9 +50,9 @@ pub fn sensitivities(
 #[non_exhaustive]
 pub struct Scatter {
     /// For the before-impact velocity.
-    pub velocity: Vec<Index>,
+    pub velocity: Vec<SobolIndex>,
     /// For the place in the zone of each machine.
-    pub place: Vec<Index>,
+    pub place: Vec<SobolIndex>,
 }
 
 /// Whose scatter that of the velocity and of the place in the zone is; none if a machine between the bounds loses the
@@ -63,7 +63,7 @@ pub struct Scatter {
 pub fn scatter(
     spread: &Tolerances,
     (nominal, zone): (&Orbit, &Zone),
-    effort: Effort,
+    effort: SampleSize,
     watcher: Monitor<'_>,
 ) -> Result<Option<Scatter>, OrbitError> {
     let dimensions = spread.dimensions();

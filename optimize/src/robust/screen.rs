@@ -1,6 +1,6 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
-use crate::spread::{PolynomialModel, Settled, Surrogate, is_inside};
+use crate::spread::{PolynomialModel, StableMotion, Surrogate, is_inside};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
 use softstop_dynamics::{CycleMetrics, Orbit};
@@ -52,13 +52,13 @@ impl<'a> Screen<'a> {
     }
 
     /// The motion of a machine, if it keeps it, and whether it violates each requirement.
-    pub fn judge(&self, at: &[f64]) -> (Option<Settled>, Vec<bool>) {
+    pub fn judge(&self, at: &[f64]) -> (Option<StableMotion>, Vec<bool>) {
         let motion = self.guide.motion(at);
         (motion, self.violated(at, motion))
     }
 
     /// The figures of a machine in the order of the requirements; none if it has lost the motion, or one has no value.
-    fn values(&self, at: &[f64], motion: Option<Settled>) -> Option<Vec<f64>> {
+    fn values(&self, at: &[f64], motion: Option<StableMotion>) -> Option<Vec<f64>> {
         let orbit = Orbit::find_near(&self.spread.scene(at), motion?.state).ok()?;
         let stroke = CycleMetrics::of(&orbit).ok()?;
         let cost = self.spread.cost();
@@ -66,7 +66,7 @@ impl<'a> Screen<'a> {
         self.required.iter().map(value).collect()
     }
 
-    fn violated(&self, at: &[f64], motion: Option<Settled>) -> Vec<bool> {
+    fn violated(&self, at: &[f64], motion: Option<StableMotion>) -> Vec<bool> {
         if motion.is_some() && self.is_clear(at) {
             return vec![false; self.required.len()];
         }

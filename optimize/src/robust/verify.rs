@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::spread::{PolynomialModel, Settled};
+use crate::spread::{PolynomialModel, StableMotion};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
@@ -20,7 +20,7 @@ const ROW: usize = 1 << 8;
 
 /// How many machines are looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Settings {
+pub struct VerifySettings {
     /// As many.
     pub machines: usize,
     /// With so many lost, in all cases together, it is enough: each of them has to be followed.
@@ -29,7 +29,7 @@ pub struct Settings {
     pub first: usize,
 }
 
-impl Default for Settings {
+impl Default for VerifySettings {
     /// 16 sequences of 65,536 points, and no more than a thousand lost.
     fn default() -> Self {
         Self {
@@ -40,7 +40,7 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
+impl VerifySettings {
     /// So many machines, and no more than a thousand lost.
     pub fn of_machines(machines: usize) -> Self {
         Self {
@@ -78,7 +78,7 @@ pub struct CaseVerdict {
 }
 
 impl CaseVerdict {
-    fn take(&mut self, motion: Option<Settled>, violated: &[bool]) {
+    fn take(&mut self, motion: Option<StableMotion>, violated: &[bool]) {
         match motion {
             None => self.lost += 1,
             Some(settled) => self.slowest = self.slowest.min(settled.velocity),
@@ -129,7 +129,7 @@ impl Verdict {
 pub fn verify(
     spread: &Tolerances,
     nominal: &Orbit,
-    (settings, required): (Settings, &[Requirement]),
+    (settings, required): (VerifySettings, &[Requirement]),
     watcher: Monitor<'_>,
 ) -> Result<Verdict, OrbitError> {
     verify_in_cases(&[(spread.clone(), nominal)], (settings, required), watcher)
@@ -142,7 +142,7 @@ pub fn verify(
 /// As [`verify`].
 pub fn verify_in_cases(
     points: &[(Tolerances, &Orbit)],
-    (settings, required): (Settings, &[Requirement]),
+    (settings, required): (VerifySettings, &[Requirement]),
     watcher: Monitor<'_>,
 ) -> Result<Verdict, OrbitError> {
     let spread = &points[0].0;
@@ -187,7 +187,7 @@ pub fn verify_in_cases(
             break;
         };
         for judged in judged.into_iter().flatten() {
-            let is_rejected = |(motion, violated): &(Option<Settled>, Vec<bool>)| {
+            let is_rejected = |(motion, violated): &(Option<StableMotion>, Vec<bool>)| {
                 motion.is_none() || violated.contains(&true)
             };
             verdict.machines += 1;

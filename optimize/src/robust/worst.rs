@@ -57,7 +57,7 @@ pub fn worst(
     let corners = corners(spread.dimensions(), CORNERS);
     let corners = parallel::filter_map(&corners, |at| Some((neighbours.motion(at)?, at.clone())));
     parallel::try_map(figures, |(figure, sense)| {
-        let search = Search {
+        let search = WorstSearch {
             neighbours: &neighbours,
             figure: *figure,
             // What is worst is least.
@@ -69,14 +69,14 @@ pub fn worst(
 }
 
 /// The search for the machine with the least value of a figure, times a sign.
-struct Search<'a> {
+struct WorstSearch<'a> {
     neighbours: &'a Neighbours<'a>,
     figure: Figure,
     sign: f64,
     watcher: Monitor<'a>,
 }
 
-impl Search<'_> {
+impl WorstSearch<'_> {
     fn run(&self, corners: &[(Orbit, Vec<f64>)]) -> Result<Worst, OrbitError> {
         let Neighbours {
             spread, nominal, ..
@@ -207,7 +207,7 @@ pub(super) fn nominal_slopes(
     nominal: &Orbit,
     watcher: Monitor<'_>,
 ) -> Result<Vec<f64>, OrbitError> {
-    let search = Search {
+    let search = WorstSearch {
         neighbours: &Neighbours::new(spread, nominal),
         figure: Figure::Velocity,
         sign: 1.0,

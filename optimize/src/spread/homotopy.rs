@@ -8,7 +8,7 @@ use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::zone::Loss;
 
-use super::{Settled, Tolerances};
+use super::{StableMotion, Tolerances};
 
 /// Typical change of the share of the way, the unit of steps.
 const TYPICAL: f64 = 2.0;
@@ -16,7 +16,7 @@ const TYPICAL: f64 = 2.0;
 /// How far the motion goes on.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Reached {
+pub struct HomotopyEnd {
     /// Share of the way: 1 is all of it.
     pub share: f64,
     /// The motion there.
@@ -34,7 +34,7 @@ pub fn along(
     nominal: &Orbit,
     to: &[f64],
     farthest: f64,
-) -> Result<Reached, OrbitError> {
+) -> Result<HomotopyEnd, OrbitError> {
     let family = Homotopy {
         spread,
         to,
@@ -47,7 +47,7 @@ pub fn along(
             stop_if(!inside || !point.is_stable())
         })?;
     let end = find_end(&continuation, &mut points, Direction::Up, (0.0, farthest))?;
-    Ok(Reached {
+    Ok(HomotopyEnd {
         share: end.frequency,
         loss: Some(end.loss).filter(|loss| *loss != Loss::Range),
         point: end.point,
@@ -62,11 +62,14 @@ pub fn motion_of(
     nominal: &Orbit,
     at: &[f64],
     guess: Option<(Vector2<f64>, f64)>,
-) -> Option<Settled> {
-    let near = guess.and_then(|(state, reach)| Settled::near(&spread.scene(at), state, reach));
+) -> Option<StableMotion> {
+    let near = guess.and_then(|(state, reach)| StableMotion::near(&spread.scene(at), state, reach));
     near.or_else(|| {
         let reached = along(spread, nominal, at, 1.0).ok()?;
-        reached.loss.is_none().then(|| Settled::of(&reached.point))
+        reached
+            .loss
+            .is_none()
+            .then(|| StableMotion::of(&reached.point))
     })
 }
 

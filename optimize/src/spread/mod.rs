@@ -15,9 +15,9 @@ mod surrogate;
 mod tolerances;
 
 pub use distribution::{Distribution, EVEN, FITTED, normal_quantile};
-pub use homotopy::{Reached, along, motion_of};
+pub use homotopy::{HomotopyEnd, along, motion_of};
 pub use normal::{critical_normal, free_normal, in_coordinates, varied};
 pub use polynomial_model::PolynomialModel;
-pub use return_map::Settled;
+pub use return_map::StableMotion;
 pub use surrogate::{Surrogate, is_inside};
 pub use tolerances::{AbsoluteTolerance, Tolerances};

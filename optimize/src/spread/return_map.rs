@@ -70,14 +70,14 @@ impl Observer for ReturnMap {
 /// A stable z = 1 motion.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub struct Settled {
+pub struct StableMotion {
     /// Position in m and velocity in m/s at time 0.
     pub state: Vector2<f64>,
     /// Before-impact velocity in m/s.
     pub velocity: f64,
 }
 
-impl Settled {
+impl StableMotion {
     /// That of a point of a branch.
     pub(super) fn of(point: &BranchPoint) -> Self {
         Self {

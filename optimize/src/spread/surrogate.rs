@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{PolynomialModel, Settled, Tolerances, motion_of};
+use super::{PolynomialModel, StableMotion, Tolerances, motion_of};
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::parallel;
 
@@ -39,7 +39,8 @@ impl<'a> Surrogate<'a> {
         nominal: &'a Orbit,
         places: &[Vec<f64>],
     ) -> Result<Self, OrbitError> {
-        let known_at = |place: &Vec<f64>, settled: Settled| (place.clone(), settled.state.into());
+        let known_at =
+            |place: &Vec<f64>, settled: StableMotion| (place.clone(), settled.state.into());
         let followed = |place: &Vec<f64>| {
             let settled = motion_of(spread, nominal, place, None)?;
             Some(known_at(place, settled))
@@ -71,7 +72,7 @@ impl<'a> Surrogate<'a> {
 
     /// The motion at some coordinates that goes on from the nominal one: by Newton's method from where it should be, and where
     /// that is in any doubt or outside the bounds, by following it there. None if it is lost on the way.
-    pub fn motion(&self, at: &[f64]) -> Option<Settled> {
+    pub fn motion(&self, at: &[f64]) -> Option<StableMotion> {
         let guess = || (Vector2::from(self.states.at(at)), self.reach);
         motion_of(self.spread, self.nominal, at, is_inside(at).then(guess))
     }

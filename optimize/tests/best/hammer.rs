@@ -5,8 +5,8 @@ use softstop_optimize::design::constraint::{ActiveLimit, Limit};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::problem::{Link, Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
-use softstop_optimize::design::search::{Unwatched, search};
-use softstop_optimize::design::solution::{Beside, Solution};
+use softstop_optimize::design::search::{Unmonitored, search};
+use softstop_optimize::design::solution::{SideTasks, Solution};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 
@@ -66,11 +66,11 @@ fn hammer(scope: Scope) -> Problem {
 #[test]
 fn the_best_hammer_of_the_drawing_is_found() -> Outcome {
     let problem = hammer(Scope::Drawing);
-    let beside = Beside {
+    let beside = SideTasks {
         relaxed: true,
-        ..Beside::default()
+        ..SideTasks::default()
     };
-    let solution = Solution::of(&problem, SETTINGS, beside, (&Unwatched, None))?;
+    let solution = Solution::of(&problem, SETTINGS, beside, (&Unmonitored, None))?;
     let design = &solution.found.design;
     assert!(
         (design.value / 115.206 - 1.0).abs() < 1e-5,
@@ -87,7 +87,7 @@ fn the_best_hammer_of_the_drawing_is_found() -> Outcome {
 #[test]
 fn no_hammer_within_the_tolerances_violates_what_is_required() -> Outcome {
     let problem = hammer(Scope::Tolerances);
-    let found = search(&problem, SETTINGS, &Unwatched, None)?;
+    let found = search(&problem, SETTINGS, &Unmonitored, None)?;
     assert!(found.residue < 1e-6, "{}", found.residue);
     assert_holds(&problem, &found.design, 1 << 16)?;
     let worst = problem.worst_of_required(&found.design);
@@ -107,9 +107,9 @@ fn no_hammer_within_the_tolerances_violates_what_is_required() -> Outcome {
 fn the_best_of_the_worst_machines_is_found() -> Outcome {
     let mut problem = hammer(Scope::Tolerances);
     problem.requirements.retain(|it| !it.figure.is_trial());
-    let drawing = search(&problem, SETTINGS, &Unwatched, None)?.design;
+    let drawing = search(&problem, SETTINGS, &Unmonitored, None)?.design;
     problem.objective.scope = Scope::Tolerances;
-    let design = search(&problem, SETTINGS, &Unwatched, None)?.design;
+    let design = search(&problem, SETTINGS, &Unmonitored, None)?.design;
     let power = Requirement::at_least(Figure::ImpactPower, 0.0);
     let with_power = Problem {
         requirements: vec![power],

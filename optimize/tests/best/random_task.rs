@@ -7,7 +7,7 @@ use softstop_optimize::design::Problem;
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::problem::{Link, Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
-use softstop_optimize::design::search::{Settings, Unwatched, search};
+use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 
 /// Numbers in [0, 1).
@@ -109,8 +109,8 @@ pub(super) fn task(seed: u64) -> Problem {
         objective: Objective::new(figure, Sense::Least),
         ..Problem::of(machine, axes)
     };
-    let few = Settings { evaluations: 200 };
-    if let Ok(free) = search(&problem.relaxed(), few, &Unwatched, None) {
+    let few = SearchSettings { evaluations: 200 };
+    if let Ok(free) = search(&problem.relaxed(), few, &Unmonitored, None) {
         let motion = free.design.judged().expect("a motion");
         for figure in [Figure::StopForce, Figure::Stroke] {
             if numbers.next() < 0.6 {

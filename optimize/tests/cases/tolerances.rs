@@ -7,10 +7,10 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_optimize::design::critical::CriticalMachines;
 use softstop_optimize::design::local::local;
-use softstop_optimize::design::operating_point::At;
+use softstop_optimize::design::operating_point::SearchPoint;
 use softstop_optimize::design::problem::{Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
-use softstop_optimize::design::search::{Settings, Unwatched, search};
+use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, FITTED, verify, verify_in_cases, worst};
@@ -58,7 +58,7 @@ fn derivatives_are_those_of_differences() -> Outcome {
             ..press(objective)?
         };
         let look = |at: &[f64; 3]| {
-            let at = At {
+            let at = SearchPoint {
                 unit: &at[..2],
                 moved: &[0, 1],
                 place: Some(at[2]),
@@ -113,13 +113,18 @@ fn tolerances_hold_in_every_case() -> Outcome {
         ..Objective::default()
     };
     let problem = press(objective)?;
-    let found = search(&problem, Settings { evaluations: 100 }, &Unwatched, None)?;
+    let found = search(
+        &problem,
+        SearchSettings { evaluations: 100 },
+        &Unmonitored,
+        None,
+    )?;
     let design = &found.design;
     let problems = [&problem].into_iter().cloned().chain(problem.in_cases());
     let problems: Vec<Problem> = problems.collect();
     let points = slice::from_ref(design).iter().chain(&design.cases);
     let points: Vec<(&Problem, &Design)> = problems.iter().zip(points).collect();
-    let settings = robust::Settings::of_machines(1 << 12);
+    let settings = robust::VerifySettings::of_machines(1 << 12);
     let settings = (settings, &problem.requirements[..]);
     let unmonitored = &softstop_dynamics::monitor::unmonitored;
     let drawn = problem.drawn(design).ok_or("tolerances")?;
@@ -147,7 +152,13 @@ fn tolerances_hold_in_every_case() -> Outcome {
     // Without levels of each case the mean of the worst would not be the best: that of the drawings has less of it.
     let mut nominal = problem.clone();
     nominal.objective.scope = Scope::Drawing;
-    let other = search(&nominal, Settings { evaluations: 100 }, &Unwatched, None)?.design;
+    let other = search(
+        &nominal,
+        SearchSettings { evaluations: 100 },
+        &Unmonitored,
+        None,
+    )?
+    .design;
     let mut least = Vec::new();
     let others = slice::from_ref(&other).iter().chain(&other.cases);
     for (problem, design) in problems.iter().zip(others) {

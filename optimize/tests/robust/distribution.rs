@@ -10,8 +10,8 @@ use softstop_dynamics::{CycleMetrics, Orbit};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
-use softstop_optimize::design::search::{SearchError, Settings, Unwatched};
-use softstop_optimize::design::solution::{Beside, Solution};
+use softstop_optimize::design::search::{SearchError, SearchSettings, Unmonitored};
+use softstop_optimize::design::solution::{SideTasks, Solution};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::robust::{self, Distribution, FITTED, Tolerances, normal_quantile, verify};
 
@@ -35,8 +35,8 @@ fn problem(force: f64) -> Result<Problem, Box<dyn std::error::Error>> {
     })
 }
 
-const FEW: Settings = Settings { evaluations: 200 };
-const BESIDE: Beside = Beside {
+const FEW: SearchSettings = SearchSettings { evaluations: 200 };
+const BESIDE: SideTasks = SideTasks {
     relaxed: false,
     fronts: false,
     machines: 1 << 14,
@@ -57,11 +57,11 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
         violating: 0.01,
         ..problem(7e5)?
     };
-    let solution = Solution::of(&problem, FEW, BESIDE, (&Unwatched, None))?;
+    let solution = Solution::of(&problem, FEW, BESIDE, (&Unmonitored, None))?;
     let kept = problem.with_deviations(solution.deviations);
     let design = &solution.found.design;
     let spread = kept.spread(&design.machine).ok_or("tolerances")?;
-    let settings = robust::Settings::of_machines(BESIDE.machines);
+    let settings = robust::VerifySettings::of_machines(BESIDE.machines);
     let required = kept.required_of_each();
     let spread = spread.over(FITTED);
     let verdict = verify(&spread, &design.orbit, (settings, &required), &unmonitored)?;
@@ -118,7 +118,7 @@ fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
     let nominal = softstop_dynamics::orbit::find(&machine.scene)?;
     let slow = Orbit::find_near(&spread.scene(&[-0.75]), nominal.state())?;
     let bound = Requirement::at_least(Figure::Velocity, slow.before_impact_velocity());
-    let settings = robust::Settings::of_machines(1 << 16);
+    let settings = robust::VerifySettings::of_machines(1 << 16);
     let verdict = verify(
         &spread.over(FITTED),
         &nominal,
@@ -135,7 +135,7 @@ fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
 fn a_share_that_no_design_has_is_refused() -> Outcome {
     let mut problem = problem(7e5)?;
     problem.requirements = vec![Requirement::at_most(Figure::StopForce, 1e5)];
-    let found = Solution::of(&problem, FEW, BESIDE, (&Unwatched, None));
+    let found = Solution::of(&problem, FEW, BESIDE, (&Unmonitored, None));
     assert!(
         matches!(found, Err(SearchError::NoDesign { .. })),
         "{found:?}"

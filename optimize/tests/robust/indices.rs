@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use approx::assert_relative_eq;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone;
-use softstop_optimize::robust::{Effort, Estimate, indices, scatter, sensitivities};
+use softstop_optimize::robust::{Estimate, SampleSize, indices, scatter, sensitivities};
 
 use super::{Outcome, press, shop, spread};
 
@@ -25,7 +25,7 @@ fn ishigami() -> Outcome {
         let [x, y, z] = [at[0], at[1], at[2]].map(|at| PI * at);
         Some([x.sin() + a * y.sin().powi(2) + b * z.powi(4) * x.sin()])
     };
-    let [found] = indices(3, Effort::default(), function, &unmonitored).ok_or("indices")?;
+    let [found] = indices(3, SampleSize::default(), function, &unmonitored).ok_or("indices")?;
     let pi = PI.powi(4);
     let variance = a * a / 8.0 + b * pi / 5.0 + b * b * pi * pi / 18.0 + 0.5;
     let alone = 0.5 * (1.0 + b * pi / 5.0).powi(2) / variance;
@@ -48,7 +48,7 @@ fn shares_of_a_sum_are_those_of_its_parts() -> Outcome {
         let sum: f64 = parts.sum();
         Some([sum, 1e6 + sum])
     };
-    let found = indices(4, Effort::default(), sum, &unmonitored).ok_or("indices")?;
+    let found = indices(4, SampleSize::default(), sum, &unmonitored).ok_or("indices")?;
     for found in found {
         for (index, weight) in found.iter().zip(weights) {
             agrees(index.first, weight * weight / 14.0, 0.01);
@@ -62,7 +62,7 @@ fn shares_of_a_sum_are_those_of_its_parts() -> Outcome {
 
 #[test]
 fn nothing_is_told_of_what_does_not_change_or_is_not_there() {
-    let few = Effort {
+    let few = SampleSize {
         points: 16,
         sequences: 2,
     };
@@ -76,7 +76,7 @@ fn nothing_is_told_of_what_does_not_change_or_is_not_there() {
 fn scatter_of_small_tolerances_is_that_of_the_slopes() -> Outcome {
     let machine = press()?;
     let (tolerances, nominal) = spread(&machine, &shop(&machine), 0.2)?;
-    let effort = Effort {
+    let effort = SampleSize {
         points: 256,
         sequences: 4,
     };

@@ -9,7 +9,7 @@ use softstop::Parameter;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{self, Loss};
-use softstop_optimize::robust::{Manifold, Nearest, Norm, Settings, nearest, verify};
+use softstop_optimize::robust::{Manifold, Nearest, Norm, VerifySettings, nearest, verify};
 use softstop_optimize::spread::along;
 
 use super::{Outcome, machines, press, shop, spread};
@@ -72,7 +72,7 @@ fn no_direction_of_a_dense_fan_leads_to_a_nearer_loss() -> Outcome {
 
 #[test]
 fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
-    let few = |machines| Settings {
+    let few = |machines| VerifySettings {
         machines,
         enough: 1,
         first: 0,

@@ -8,12 +8,14 @@ use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
-use softstop_optimize::robust::{AbsoluteTolerance, Distribution, Settings, Tolerances, verify};
+use softstop_optimize::robust::{
+    AbsoluteTolerance, Distribution, Tolerances, VerifySettings, verify,
+};
 use softstop_optimize::spread::along;
 
 use super::{Outcome, machines, press, shop, spread};
 
-const FEW: Settings = Settings {
+const FEW: VerifySettings = VerifySettings {
     machines: 4096,
     enough: usize::MAX,
     first: 0,
@@ -39,7 +41,7 @@ fn a_machine_is_lost_if_its_drive_is_faster_than_the_fold() -> Outcome {
         let fold = zone::hysteresis(&machine.scene)?.high.frequency;
         Parameter::Frequency.set(&mut machine.scene, 0.99 * fold);
         let (tolerances, nominal) = spread(&machine, &[(Parameter::Frequency, 2.0)], 1.0)?;
-        let some = Settings {
+        let some = VerifySettings {
             machines: 512,
             ..FEW
         };
@@ -121,7 +123,7 @@ fn ratios_and_si_tell_the_same() -> Outcome {
 fn any_number_of_threads_tells_the_same() -> Outcome {
     let machine = press()?;
     let (tolerances, nominal) = spread(&machine, &shop(&machine), 9.0)?;
-    let some = Settings {
+    let some = VerifySettings {
         machines: 1024,
         ..FEW
     };
@@ -141,7 +143,7 @@ fn any_number_of_threads_tells_the_same() -> Outcome {
 fn enough_lost_machines_or_a_watcher_end_it() -> Outcome {
     let machine = press()?;
     let (tolerances, nominal) = spread(&machine, &shop(&machine), 9.0)?;
-    let settings = Settings {
+    let settings = VerifySettings {
         machines: 4 * SEQUENCE_LENGTH,
         enough: 10,
         first: 0,

@@ -8,7 +8,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::{CycleMetrics, Orbit, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
-use softstop_optimize::robust::{Settings, Tolerances, Worst, sensitivities, verify, worst};
+use softstop_optimize::robust::{Tolerances, VerifySettings, Worst, sensitivities, verify, worst};
 use softstop_optimize::spread::along;
 
 use super::{Outcome, machines, press, shop, spread};
@@ -52,7 +52,7 @@ fn no_machine_is_beyond_the_worst() -> Outcome {
 
 #[test]
 fn no_machine_strikes_less_than_the_worst() -> Outcome {
-    let few = Settings {
+    let few = VerifySettings {
         machines: 4096,
         enough: 1,
         first: 0,

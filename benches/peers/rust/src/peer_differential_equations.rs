@@ -75,12 +75,12 @@ pub fn dop853(request: &Request, frequency: f64) -> Result<End, String> {
     }
 }
 
-struct Machine<'a> {
+struct DifferentialEquationsMachine<'a> {
     request: &'a Request,
     frequency: f64,
 }
 
-impl ODE<f64, [f64; 2]> for Machine<'_> {
+impl ODE<f64, [f64; 2]> for DifferentialEquationsMachine<'_> {
     fn diff(&self, time: f64, y: &[f64; 2], rate: &mut [f64; 2]) {
         let law = self.request.law(y[0] > self.request.scene.clearance);
         rate[0] = y[1];
@@ -90,7 +90,7 @@ impl ODE<f64, [f64; 2]> for Machine<'_> {
 
 /// Dormand and Prince's pair of order 8, without events.
 pub fn dop853_unlocated(request: &Request, frequency: f64) -> Result<End, String> {
-    let machine = Machine { request, frequency };
+    let machine = DifferentialEquationsMachine { request, frequency };
     let method = ExplicitRungeKutta::dop853()
         .rtol(request.tolerance)
         .atol(request.tolerance)

@@ -13,14 +13,14 @@ const MOST_STEPS: u32 = 50_000_000;
 /// Steps between tests for stiffness: none, since the jumps of the law are taken for it.
 const STIFFNESS_TEST: u32 = u32::MAX;
 
-struct Machine<'a> {
+struct OdeSolversMachine<'a> {
     request: &'a Request,
     frequency: f64,
     contact: bool,
     impacts: &'a Cell<u64>,
 }
 
-impl Machine<'_> {
+impl OdeSolversMachine<'_> {
     fn acceleration(&self, time: f64, position: f64, velocity: f64) -> f64 {
         let law = self.request.law(position > self.request.scene.clearance);
         law.acceleration((self.frequency * time).cos(), position, velocity)
@@ -35,7 +35,7 @@ impl Machine<'_> {
     }
 }
 
-impl System<f64, Vector2<f64>> for Machine<'_> {
+impl System<f64, Vector2<f64>> for OdeSolversMachine<'_> {
     fn system(&self, time: f64, y: &Vector2<f64>, rate: &mut Vector2<f64>) {
         rate[0] = y[1];
         rate[1] = self.acceleration(time, y[0], y[1]);
@@ -49,7 +49,7 @@ impl System<f64, Vector2<f64>> for Machine<'_> {
 
 /// Time as a third state: version 0.6.2 evaluates the last stage of its method of order 8 at the start of the
 /// step instead of its end, which costs it its order unless time is a state.
-impl System<f64, Vector3<f64>> for Machine<'_> {
+impl System<f64, Vector3<f64>> for OdeSolversMachine<'_> {
     fn system(&self, _time: f64, y: &Vector3<f64>, rate: &mut Vector3<f64>) {
         rate[0] = y[1];
         rate[1] = self.acceleration(y[2], y[0], y[1]);
@@ -62,8 +62,12 @@ impl System<f64, Vector3<f64>> for Machine<'_> {
     }
 }
 
-fn machine<'a>(request: &'a Request, frequency: f64, impacts: &'a Cell<u64>) -> Machine<'a> {
-    Machine {
+fn machine<'a>(
+    request: &'a Request,
+    frequency: f64,
+    impacts: &'a Cell<u64>,
+) -> OdeSolversMachine<'a> {
+    OdeSolversMachine {
         request,
         frequency,
         contact: false,

@@ -12,14 +12,14 @@ use softstop_dynamics::basin::{AxisQuantity, BasinBall, CertaintyAtPlace};
 use softstop_dynamics::{Axis, Basins, Grid, Regime};
 
 /// A row of `basin.csv`.
-pub(super) type Basin<'a> = (&'a Attractor, Option<BasinBall>);
+pub(super) type BasinRow<'a> = (&'a Attractor, Option<BasinBall>);
 
 /// Columns of `basin.csv` that say what the motion is.
 const NAMING: usize = 3;
 
 /// The columns of `basin.csv`.
-pub(super) fn columns<'a>() -> [Column<Basin<'a>>; 10] {
-    columns! { Basin<'a>, it;
+pub(super) fn columns<'a>() -> [Column<BasinRow<'a>>; 10] {
+    columns! { BasinRow<'a>, it;
         "kind" [None] Plain, "of what the basin's motions settle on" => it.0.motion.json_key();
         "z" [None] Plain, "regime z = p/n, if the motion repeats" => it.0.motion.z();
         "order" [None] Plain, "impacts in each of its drive periods" => it.0.motion.order().map(ToString::to_string);
@@ -33,14 +33,14 @@ pub(super) fn columns<'a>() -> [Column<Basin<'a>>; 10] {
     }
 }
 
-fn centre<'a>() -> [Column<Basin<'a>>; 1] {
-    columns! { Basin<'a>, it;
+fn centre<'a>() -> [Column<BasinRow<'a>>; 1] {
+    columns! { BasinRow<'a>, it;
         "centre" [None], "of the largest ball" => it.1.map(|it| it.centre);
     }
 }
 
 /// The rows of `basin.csv`.
-pub(super) fn rows(basins: &Basins) -> Vec<Basin<'_>> {
+pub(super) fn rows(basins: &Basins) -> Vec<BasinRow<'_>> {
     let classes = basins.classes.iter().enumerate();
     classes
         .map(|(index, class)| (class, basins.largest_ball(index)))
@@ -48,11 +48,11 @@ pub(super) fn rows(basins: &Basins) -> Vec<Basin<'_>> {
 }
 
 /// A row of `certainty.csv`.
-pub(super) type Place<'a> = (&'a Machine, &'a CertaintyAtPlace);
+pub(super) type CertaintyRow<'a> = (&'a Machine, &'a CertaintyAtPlace);
 
 /// The columns of `certainty.csv`.
-pub(super) fn places<'a>() -> [Column<Place<'a>>; 7] {
-    columns! { Place<'a>, it;
+pub(super) fn places<'a>() -> [Column<CertaintyRow<'a>>; 7] {
+    columns! { CertaintyRow<'a>, it;
         "place" [None] Fixed(4), "0 at g0, 1 at s_SN" => it.1.place;
         "frequency" [Frequency] Fixed(6), "of the drive" => it.0.to_own(Dimension::Frequency, it.1.frequency);
         "certainty" [None] Fixed(5), "share of cells that lead to z = 1" => it.1.certainty;

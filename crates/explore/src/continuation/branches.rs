@@ -10,7 +10,7 @@ use softstop_dynamics::continuation::{
 };
 use softstop_dynamics::{Branch, BranchLimits, BranchPoint, Continuation};
 
-use super::{ContinueArguments, Followed, family, seed};
+use super::{ContinueArguments, FollowedParameter, family, seed};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -50,7 +50,7 @@ pub(super) fn count(bar: &Progress) -> ControlFlow<()> {
 pub(super) fn branches(
     arguments: &ContinueArguments,
     machine: &Machine,
-    along: &Followed,
+    along: &FollowedParameter,
     (periods, state): (u64, Option<Vector2<f64>>),
 ) -> Result<Vec<Branch>, Failure> {
     let family = &family(machine, [along.parameter])?;

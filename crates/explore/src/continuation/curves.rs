@@ -11,7 +11,7 @@ use softstop_dynamics::continuation::{
 use softstop_dynamics::orbit::OrbitError;
 
 use super::branches::{STEP, count};
-use super::{ContinueArguments, Followed, family};
+use super::{ContinueArguments, FollowedParameter, family};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -39,7 +39,7 @@ pub(super) struct NotFollowed<'a> {
 pub(super) fn curves<'a>(
     machine: &Machine,
     arguments: &ContinueArguments,
-    both: [&Followed; 2],
+    both: [&FollowedParameter; 2],
     branches: &'a [Branch],
 ) -> Result<Curves<'a>, Failure> {
     let family: &dyn Family<2> = &family(machine, both.map(|one| one.parameter))?;

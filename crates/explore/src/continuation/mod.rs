@@ -129,7 +129,8 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         let (periods, state) = point.take(&mut machine)?;
         start = (periods, Some(state));
     }
-    let followed = |flags, name, ends| Followed::new(arguments, &machine, flags, name, ends);
+    let followed =
+        |flags, name, ends| FollowedParameter::new(arguments, &machine, flags, name, ends);
     let ends = (arguments.from, arguments.to);
     let first = followed(["parameter", ""], &arguments.parameter, ends)?;
     let ends = arguments.second_from.zip(arguments.second_to);
@@ -178,13 +179,13 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
 }
 
 /// A parameter that is followed, where it starts and how far it goes.
-struct Followed {
+struct FollowedParameter {
     parameter: Parameter,
     start: f64,
     range: (f64, f64),
 }
 
-impl Followed {
+impl FollowedParameter {
     /// The one of this name; its flag and the beginning of the flags of its range.
     fn new(
         arguments: &ContinueArguments,

@@ -6,8 +6,8 @@ use softstop_dynamics::Regime;
 use softstop_dynamics::motion::MotionClass;
 
 use super::FidelityArguments;
-use super::structure::Structure;
-use super::study::{Entry, ModelComparison};
+use super::structure::RegimeStructure;
+use super::study::{ModelComparison, ModelEntry};
 use crate::palette::{motion_color, motion_keys, regime_class};
 use softstop_console::arguments::{title, title_over_frequency};
 
@@ -36,7 +36,7 @@ pub(super) fn models(
     let (cheap, dear) = around(costs, 0.0);
     let power = |exponent: f64| 10f64.powf(exponent);
     let ends = |(low, high): (f64, f64)| (power(low), power(high));
-    let place = |entry: &Entry| {
+    let place = |entry: &ModelEntry| {
         let height = match entry.error {
             Some(0.0) => power(low - 0.5 * STRIP),
             Some(error) if error.is_finite() => error.min(power(high)),
@@ -89,7 +89,7 @@ pub(super) fn models(
 }
 
 /// The regimes of all models as an SVG document: a strip over drive frequency for each model and start.
-pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
+pub(super) fn regimes(machine: &Machine, structure: &RegimeStructure) -> String {
     let (frequencies, rows) = (&structure.frequencies, structure.tracks.len() as f64);
     let (low, high) = around(frequencies.iter().copied(), 0.0);
     let room = 0.5 * (high - low) / (frequencies.len() - 1) as f64;

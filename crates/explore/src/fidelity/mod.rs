@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use models::{Likeness, Quantity};
+use models::{MatchedProperty, Quantity};
 use softstop::Allowed;
 
 use report::report;
@@ -21,7 +21,7 @@ use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::range::{self, within};
-use structure::Structure;
+use structure::RegimeStructure;
 use study::ModelComparison;
 
 const EXAMPLES: &str = "\
@@ -104,11 +104,11 @@ pub enum Matched {
 }
 
 impl Matched {
-    const fn likenesses(self) -> &'static [Likeness] {
+    const fn likenesses(self) -> &'static [MatchedProperty] {
         match self {
-            Self::Penetration => &[Likeness::Penetration],
-            Self::Duration => &[Likeness::Duration],
-            Self::Both => &[Likeness::Penetration, Likeness::Duration],
+            Self::Penetration => &[MatchedProperty::Penetration],
+            Self::Duration => &[MatchedProperty::Duration],
+            Self::Both => &[MatchedProperty::Penetration, MatchedProperty::Duration],
         }
     }
 }
@@ -152,8 +152,10 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     let limit = arguments.common.limit.budget;
     let study = limit.limit(|| ModelComparison::new(&machine, arguments))?;
     let structure = frequencies.map(|frequencies| {
-        let motions = Structure::motion_count(&study, frequencies.len());
-        limit.limit_many(motions, || Structure::new(&machine, &study, frequencies))
+        let motions = RegimeStructure::motion_count(&study, frequencies.len());
+        limit.limit_many(motions, || {
+            RegimeStructure::new(&machine, &study, frequencies)
+        })
     });
     let structure = structure.transpose()?;
     let chart = chart::models(arguments, &machine, &study);

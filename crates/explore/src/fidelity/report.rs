@@ -1,12 +1,12 @@
 //! The result, in the machine's own units.
 
-use super::models::{Answers, Quantity};
+use super::models::{ObservedFigures, Quantity};
 use serde_json::json;
 use softstop::{Dimension, Machine};
 
 use super::FidelityArguments;
-use super::structure::{Structure, Track, kind};
-use super::study::{Entry, ModelComparison, Name};
+use super::structure::{RegimeStructure, RegimeTrack, kind};
+use super::study::{ModelComparison, ModelEntry, ModelName};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
 use softstop_console::record::{Record, below};
@@ -19,7 +19,7 @@ use softstop_console::{columns, units};
 pub(super) struct AnswerRow<'a> {
     machine: &'a Machine,
     study: &'a ModelComparison,
-    model: &'a Entry,
+    model: &'a ModelEntry,
     quantity: Quantity,
 }
 
@@ -61,7 +61,7 @@ fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
 }
 
 /// A value of a quantity in the machine's own units.
-fn own(machine: &Machine, quantity: Quantity, answers: &Answers) -> Option<f64> {
+fn own(machine: &Machine, quantity: Quantity, answers: &ObservedFigures) -> Option<f64> {
     let value = answers.value(quantity);
     value.map(|value| machine.to_own(quantity.dimension(), value))
 }
@@ -88,7 +88,7 @@ fn error(error: Option<f64>) -> Told {
     }
 }
 
-type Tracked<'a> = (&'a Machine, &'a Structure<'a>, &'a Track<'a>);
+type Tracked<'a> = (&'a Machine, &'a RegimeStructure<'a>, &'a RegimeTrack<'a>);
 
 /// What is told of the regimes of a model.
 fn tracks<'a>() -> [Column<Tracked<'a>>; 7] {
@@ -104,7 +104,7 @@ fn tracks<'a>() -> [Column<Tracked<'a>>; 7] {
 }
 
 /// A model by its names.
-fn named(name: Name) -> Record {
+fn named(name: ModelName) -> Record {
     let named = Record::default().hidden("rung", name.rung.name());
     named.hidden("matched", name.word())
 }
@@ -151,10 +151,10 @@ fn advice(arguments: &FidelityArguments, machine: &Machine, study: &ModelCompari
     let tolerance = arguments.tolerance;
     let found = match study.cheapest(tolerance) {
         None => format!("No model is within {tolerance}."),
-        Some(Entry { name, is_truth, .. }) if *is_truth => format!(
+        Some(ModelEntry { name, is_truth, .. }) if *is_truth => format!(
             "Within {tolerance} nothing costs less than the scene itself ({name}): take it as it is."
         ),
-        Some(Entry { name, .. }) => format!("The cheapest model within {tolerance}: {name}."),
+        Some(ModelEntry { name, .. }) => format!("The cheapest model within {tolerance}: {name}."),
     };
     format!("{matched} Costs are per drive period.\n{found}\n")
 }
@@ -163,7 +163,7 @@ fn advice(arguments: &FidelityArguments, machine: &Machine, study: &ModelCompari
 pub(super) fn report(
     arguments: &FidelityArguments,
     (machine, study): (&Machine, &ModelComparison),
-    structure: Option<&Structure<'_>>,
+    structure: Option<&RegimeStructure<'_>>,
 ) -> (Record, String) {
     let (quantity, tolerance, units) =
         (arguments.quantity, arguments.tolerance, Units::of(machine));

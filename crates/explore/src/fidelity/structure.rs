@@ -5,7 +5,7 @@ use softstop::{Dimension, Machine, Scene, Start};
 use softstop_dynamics::Regime;
 
 use super::FidelityArguments;
-use super::study::{Entry, ModelComparison};
+use super::study::{ModelComparison, ModelEntry};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
@@ -22,20 +22,20 @@ const SWEEP: [f64; 2] = [0.95, 1.4];
 
 /// The regimes of one model from both starts, at every frequency; none where nothing repeats.
 #[derive(Debug)]
-pub(super) struct Track<'a> {
-    pub(super) entry: &'a Entry,
+pub(super) struct RegimeTrack<'a> {
+    pub(super) entry: &'a ModelEntry,
     pub(super) regimes: [Vec<Option<Regime>>; 2],
 }
 
 /// The regimes of all models.
 #[derive(Debug)]
-pub(super) struct Structure<'a> {
+pub(super) struct RegimeStructure<'a> {
     /// In the machine's own units.
     pub(super) frequencies: Vec<f64>,
-    pub(super) tracks: Vec<Track<'a>>,
+    pub(super) tracks: Vec<RegimeTrack<'a>>,
 }
 
-impl<'a> Structure<'a> {
+impl<'a> RegimeStructure<'a> {
     /// Motions of all models from both starts at a number of frequencies.
     pub(super) fn motion_count(study: &ModelComparison, frequencies: usize) -> usize {
         STARTS.len() * frequencies * study.entries.len()
@@ -49,7 +49,7 @@ impl<'a> Structure<'a> {
     ) -> Result<Self, Failure> {
         let count = Self::motion_count(study, frequencies.len());
         let progress = Progress::new(count as u64, "motions");
-        let regimes = |entry: &Entry, (_, flung)| {
+        let regimes = |entry: &ModelEntry, (_, flung)| {
             let each = frequencies.iter().map(|frequency| {
                 let frequency = machine.to_si(Dimension::Frequency, *frequency);
                 let regime = regime(&entry.scene, frequency, flung)?;
@@ -58,8 +58,8 @@ impl<'a> Structure<'a> {
             });
             each.collect::<Result<Vec<_>, Failure>>()
         };
-        let track = |entry: &'a Entry| {
-            Ok(Track {
+        let track = |entry: &'a ModelEntry| {
+            Ok(RegimeTrack {
                 entry,
                 regimes: [regimes(entry, STARTS[0])?, regimes(entry, STARTS[1])?],
             })
@@ -74,7 +74,7 @@ impl<'a> Structure<'a> {
     /// The share of frequencies and starts at which something of a model's regime is that of the scene itself.
     pub(super) fn agreement<T: PartialEq>(
         &self,
-        model: &Track,
+        model: &RegimeTrack,
         of: fn(Option<Regime>) -> T,
     ) -> Option<f64> {
         let truth = self.tracks.iter().find(|track| track.entry.is_truth)?;
@@ -106,7 +106,7 @@ impl<'a> Structure<'a> {
     }
 }
 
-impl Track<'_> {
+impl RegimeTrack<'_> {
     /// z or kind of its motions from a start in order of frequency, each once where it is the same at neighbours.
     pub(super) fn sequence(&self, start: usize) -> Vec<String> {
         let regimes = self.regimes[start].iter();
@@ -119,7 +119,7 @@ impl Track<'_> {
 
 /// A row of `structure.csv`.
 pub(super) struct StructureRow<'a> {
-    track: &'a Track<'a>,
+    track: &'a RegimeTrack<'a>,
     start: &'static str,
     frequency: f64,
     motion: MotionName,

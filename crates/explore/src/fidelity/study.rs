@@ -4,7 +4,8 @@ use std::fmt;
 use std::time::Instant;
 
 use super::models::{
-    Answers, FidelityError, Ladder, Likeness, Rung, cheapest, from_model, from_truth,
+    ContactLaw, FidelityError, MatchedProperty, ModelHierarchy, ObservedFigures, cheapest,
+    from_model, from_truth,
 };
 use anyhow::{Context, anyhow};
 use softstop::internals::Evaluations;
@@ -17,22 +18,22 @@ use softstop_console::progress::Progress;
 
 /// A model by its law and by what it has in common with the contact, nothing where that makes no difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Name {
-    pub(super) rung: Rung,
-    pub(super) matched: Option<Likeness>,
+pub(super) struct ModelName {
+    pub(super) rung: ContactLaw,
+    pub(super) matched: Option<MatchedProperty>,
 }
 
-impl Name {
+impl ModelName {
     /// What it has in common with the contact, in a word.
     pub(super) fn word(self) -> Option<&'static str> {
         self.matched.map(|likeness| match likeness {
-            Likeness::Penetration => "penetration",
-            Likeness::Duration => "duration",
+            MatchedProperty::Penetration => "penetration",
+            MatchedProperty::Duration => "duration",
         })
     }
 }
 
-impl fmt::Display for Name {
+impl fmt::Display for ModelName {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.word() {
             Some(word) => write!(formatter, "{} ({word})", self.rung),
@@ -43,10 +44,10 @@ impl fmt::Display for Name {
 
 /// A model with what it gives.
 #[derive(Debug, Clone)]
-pub(super) struct Entry {
-    pub(super) name: Name,
+pub(super) struct ModelEntry {
+    pub(super) name: ModelName,
     pub(super) scene: Scene,
-    pub(super) answers: Answers,
+    pub(super) answers: ObservedFigures,
     /// Error of the quantity that is asked for.
     pub(super) error: Option<f64>,
     /// Evaluations of the law of force in a drive period of its settled motion: the same on every machine.
@@ -62,10 +63,10 @@ pub(super) struct Entry {
 pub(super) struct ModelComparison {
     /// Before-impact velocity in m/s of the scene's motion, if it strikes.
     pub(super) velocity: Option<f64>,
-    pub(super) truth: Answers,
-    pub(super) entries: Vec<Entry>,
+    pub(super) truth: ObservedFigures,
+    pub(super) entries: Vec<ModelEntry>,
     /// Those without a model, and why.
-    pub(super) unmatched: Vec<(Name, String)>,
+    pub(super) unmatched: Vec<(ModelName, String)>,
 }
 
 impl ModelComparison {
@@ -73,11 +74,11 @@ impl ModelComparison {
     pub(super) fn new(machine: &Machine, arguments: &FidelityArguments) -> Result<Self, Failure> {
         let (truth, quantity) = (&machine.scene, arguments.quantity);
         let is_bounded = arguments.structure || quantity.is_bound();
-        let bounded = |scene: &Scene, seen: Answers| match is_bounded {
+        let bounded = |scene: &Scene, seen: ObservedFigures| match is_bounded {
             true => seen.with_bounds(scene).map_err(run),
             false => Ok(seen),
         };
-        let observed = Answers::settled(truth, None, machine.start).map_err(run)?;
+        let observed = ObservedFigures::settled(truth, None, machine.start).map_err(run)?;
         let answers = bounded(truth, observed)?;
         if answers.value(quantity).is_none() {
             return Err(Failure::Run(anyhow!(
@@ -97,9 +98,9 @@ impl ModelComparison {
             match model(truth, name, &observed, machine.start, arguments.predictive) {
                 Ok((scene, seen)) => {
                     let answers = bounded(&scene, seen)?;
-                    study.entries.push(Entry {
+                    study.entries.push(ModelEntry {
                         name,
-                        is_truth: name.rung == Rung::of(truth),
+                        is_truth: name.rung == ContactLaw::of(truth),
                         scene,
                         error: study.truth.error(&answers, quantity),
                         answers,
@@ -140,14 +141,14 @@ impl ModelComparison {
     }
 
     /// The cheapest model within a tolerance; the scene itself always is.
-    pub(super) fn cheapest(&self, tolerance: f64) -> Option<&Entry> {
+    pub(super) fn cheapest(&self, tolerance: f64) -> Option<&ModelEntry> {
         let models = self.entries.iter();
         let models = models.map(|entry| (entry.error, entry.evaluations_per_period));
         cheapest(&models.collect::<Vec<_>>(), tolerance).map(|place| &self.entries[place])
     }
 }
 
-impl Entry {
+impl ModelEntry {
     /// Its name, and whether it is the scene itself.
     pub(super) fn full_name(&self) -> String {
         let scene = if self.is_truth { " = the scene" } else { "" };
@@ -156,48 +157,51 @@ impl Entry {
 }
 
 /// The rungs to be tried, soft ones once for each likeness.
-fn plan(truth: &Scene, likenesses: &[Likeness]) -> Vec<Name> {
-    let ladder = Ladder {
+fn plan(truth: &Scene, likenesses: &[MatchedProperty]) -> Vec<ModelName> {
+    let ladder = ModelHierarchy {
         truth: truth.clone(),
-        likeness: Likeness::default(),
+        likeness: MatchedProperty::default(),
     };
-    let own = Rung::of(truth);
-    let variants = |rung: Rung| {
-        let soft = matches!(rung, Rung::KelvinVoigt | Rung::Preloaded | Rung::Hertz);
-        let matched: Vec<Option<Likeness>> = match soft && rung != own {
+    let own = ContactLaw::of(truth);
+    let variants = |rung: ContactLaw| {
+        let soft = matches!(
+            rung,
+            ContactLaw::KelvinVoigt | ContactLaw::Preloaded | ContactLaw::Hertz
+        );
+        let matched: Vec<Option<MatchedProperty>> = match soft && rung != own {
             true => likenesses.iter().copied().map(Some).collect(),
             false => vec![None],
         };
         matched
             .into_iter()
-            .map(move |matched| Name { rung, matched })
+            .map(move |matched| ModelName { rung, matched })
     };
     ladder.rungs().into_iter().flat_map(variants).collect()
 }
 
 fn model(
     truth: &Scene,
-    Name { rung, matched }: Name,
-    observed: &Answers,
+    ModelName { rung, matched }: ModelName,
+    observed: &ObservedFigures,
     start: Start,
     is_predictive: bool,
-) -> Result<(Scene, Answers), FidelityError> {
-    let ladder = Ladder {
+) -> Result<(Scene, ObservedFigures), FidelityError> {
+    let ladder = ModelHierarchy {
         truth: truth.clone(),
         likeness: matched.unwrap_or_default(),
     };
-    if rung == Rung::of(truth) {
+    if rung == ContactLaw::of(truth) {
         return Ok((ladder.model(rung, f64::NAN)?, *observed));
     }
     if is_predictive {
         return from_model(&ladder, rung, start);
     }
     let velocity = match rung {
-        Rung::Linear => f64::NAN,
+        ContactLaw::Linear => f64::NAN,
         _ => from_truth(observed)?,
     };
     let model = ladder.model(rung, velocity)?;
-    let seen = Answers::settled(&model, Some(observed.start), start)?;
+    let seen = ObservedFigures::settled(&model, Some(observed.start), start)?;
     Ok((model, seen))
 }
 

@@ -21,7 +21,7 @@ const WANDERING: (u64, u64) = (40, 3000);
 const ROOM: f64 = 0.06;
 
 /// A motion as it is drawn.
-struct Loop {
+struct DrawnLoop {
     name: String,
     color: &'static str,
     repeats: bool,
@@ -32,7 +32,9 @@ struct Loop {
 /// The motions of a survey as an SVG document, that with the largest share first.
 pub(super) fn svg(machine: &Machine, survey: &Survey) -> Result<String, MotionError> {
     let motions = survey.attractors.iter().take(MOST);
-    let loops: Result<Vec<Loop>, _> = motions.map(|it| Loop::of(&machine.scene, it)).collect();
+    let loops: Result<Vec<DrawnLoop>, _> = motions
+        .map(|it| DrawnLoop::of(&machine.scene, it))
+        .collect();
     let loops = loops?;
     let plane = axes(machine, || {
         loops.iter().flat_map(|it| it.line.iter().copied())
@@ -73,7 +75,7 @@ fn axes<I: Iterator<Item = (f64, f64)>>(machine: &Machine, points: impl Fn() -> 
     ]
 }
 
-impl Loop {
+impl DrawnLoop {
     fn of(scene: &Scene, attractor: &Attractor) -> Result<Self, MotionError> {
         let periods = attractor.orbit.as_ref().map(|it| it.regime().periods);
         let drawn = periods.unwrap_or(WANDERING.0).max(1);

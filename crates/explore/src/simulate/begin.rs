@@ -29,7 +29,7 @@ pub struct MotionArguments {
 }
 
 /// What to run.
-pub(crate) struct Plan {
+pub(crate) struct RunPlan {
     /// With the start that counts.
     pub machine: Machine,
     /// Drive periods without a strip, counted from 1.
@@ -43,7 +43,7 @@ pub(crate) struct Plan {
 
 impl MotionArguments {
     /// The run over so many periods, with so many samples in each; the last ones are drawn.
-    pub(crate) fn plan(&self, periods: u64, samples: u64, drawn: u64) -> Result<Plan, Failure> {
+    pub(crate) fn plan(&self, periods: u64, samples: u64, drawn: u64) -> Result<RunPlan, Failure> {
         for (flag, value) in [("position", self.position), ("velocity", self.velocity)] {
             Allowed::Finite.check(flag, value.unwrap_or(0.0))?;
             if value.is_some() {
@@ -66,7 +66,7 @@ impl MotionArguments {
         let Start { position, velocity } = machine.start;
         machine.start.position = self.position.unwrap_or(position);
         machine.start.velocity = self.velocity.unwrap_or(velocity);
-        let plan = Plan {
+        let plan = RunPlan {
             machine,
             missing,
             periods,
@@ -77,7 +77,7 @@ impl MotionArguments {
     }
 }
 
-impl Plan {
+impl RunPlan {
     /// The motion that begins there.
     pub(crate) fn motion(&self) -> Result<Motion, Failure> {
         Ok(self.machine.scene.motion(self.machine.start)?)

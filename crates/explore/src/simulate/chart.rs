@@ -8,7 +8,7 @@ use crate::palette::phase_color;
 
 /// A motion as it is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Drawing {
+pub(crate) struct DrawnMotion {
     /// Time in s, position in m, velocity in m/s, contact force in N.
     pub(crate) points: Vec<[f64; 4]>,
     /// Phase, begin and end in s, in order of time.
@@ -26,7 +26,7 @@ const ENDLESS: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 /// Points drawn at most.
 const MOST_POINTS: usize = 200_000;
 
-impl Drawing {
+impl DrawnMotion {
     /// Whether no more is taken in.
     pub(crate) fn is_full(&self) -> bool {
         self.points.len() >= MOST_POINTS

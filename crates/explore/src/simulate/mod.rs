@@ -15,9 +15,9 @@ use softstop::PhaseKind;
 
 pub use begin::MotionArguments;
 pub use record::contact_force;
-pub(crate) use record::{Crossed, crossing_columns};
+pub(crate) use record::{CrossingRow, crossing_columns};
 pub(crate) use report::report;
-pub(crate) use run::{Outcome, faces};
+pub(crate) use run::{RunOutcome, faces};
 
 use softstop_console::column;
 use softstop_console::export::Export;

@@ -6,8 +6,8 @@ use softstop::internals::{Motion, Phase, budget, work};
 use softstop::{Arc, Clock, Crossing, CrossingKind, DriveAngle, Observer, PhaseKind, Scene, Start};
 
 use super::name;
-use super::tally::{Rest, Tally};
-use crate::simulate::chart::Drawing;
+use super::tally::{MotionTally, RestInterval};
+use crate::simulate::chart::DrawnMotion;
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
@@ -22,13 +22,13 @@ const FEWEST: f64 = 8.0;
 const WRITTEN: u64 = 64;
 
 /// A row of crossings.csv.
-pub(crate) struct Crossed {
+pub(crate) struct CrossingRow {
     pub time: f64,
     pub before: PhaseKind,
     pub crossing: Crossing,
 }
 
-impl Crossed {
+impl CrossingRow {
     /// The crossing's kind as in the table.
     pub(crate) fn kind(&self) -> &'static str {
         match self.crossing.kind {
@@ -44,8 +44,8 @@ impl Crossed {
 }
 
 /// The columns of crossings.csv.
-pub(crate) fn crossing_columns() -> [Column<Crossed>; 10] {
-    columns! { Crossed, it;
+pub(crate) fn crossing_columns() -> [Column<CrossingRow>; 10] {
+    columns! { CrossingRow, it;
         "time" [Time], "when" => it.time;
         "kind" [None], "of the crossing" => it.kind();
         "phase_before" [None], "phase that it ends" => name(it.before);
@@ -60,7 +60,7 @@ pub(crate) fn crossing_columns() -> [Column<Crossed>; 10] {
 }
 
 /// Watches a motion.
-pub(super) struct Recorder<'a, F> {
+pub(super) struct MotionRecorder<'a, F> {
     scene: &'a Scene,
     clock: Clock,
     crossed: F,
@@ -68,13 +68,13 @@ pub(super) struct Recorder<'a, F> {
     failure: Option<Failure>,
     /// Phase of the arc that ended last.
     before: PhaseKind,
-    pub(super) tally: Tally,
-    pub(super) drawing: Drawing,
+    pub(super) tally: MotionTally,
+    pub(super) drawing: DrawnMotion,
     /// Time in s from which on the motion is drawn.
     drawn_from: f64,
 }
 
-impl<'a, F> Recorder<'a, F> {
+impl<'a, F> MotionRecorder<'a, F> {
     pub(super) fn new(scene: &'a Scene, motion: &Motion, crossed: F, drawn_from: f64) -> Self {
         Self {
             scene,
@@ -82,8 +82,8 @@ impl<'a, F> Recorder<'a, F> {
             crossed,
             failure: None,
             before: motion.kind(),
-            tally: Tally::default(),
-            drawing: Drawing::default(),
+            tally: MotionTally::default(),
+            drawing: DrawnMotion::default(),
             drawn_from,
         }
     }
@@ -94,7 +94,7 @@ impl<'a, F> Recorder<'a, F> {
     }
 
     /// Takes up the arc that is under way at the end.
-    pub(super) fn finish(mut self, motion: &Motion) -> (Tally, Drawing) {
+    pub(super) fn finish(mut self, motion: &Motion) -> (MotionTally, DrawnMotion) {
         let arc = motion.arc();
         let elapsed = motion.clock().elapsed(arc.start, motion.now());
         self.take(&arc, elapsed, true);
@@ -109,7 +109,7 @@ impl<'a, F> Recorder<'a, F> {
             self.tally.arc(arc.kind, elapsed);
         }
         if elapsed > 0.0 && matches!(arc.kind, PhaseKind::Resting | PhaseKind::Stuck) {
-            self.tally.rest(Rest {
+            self.tally.rest(RestInterval {
                 phase: arc.kind,
                 begin,
                 end: (!last).then_some(begin + elapsed),
@@ -140,7 +140,7 @@ impl<'a, F> Recorder<'a, F> {
     }
 }
 
-impl<F: FnMut(&Crossed) -> Result<(), Failure>> Observer for Recorder<'_, F> {
+impl<F: FnMut(&CrossingRow) -> Result<(), Failure>> Observer for MotionRecorder<'_, F> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.take(arc, elapsed, false);
     }
@@ -149,7 +149,7 @@ impl<F: FnMut(&Crossed) -> Result<(), Failure>> Observer for Recorder<'_, F> {
         budget::charge(WRITTEN);
         let time = self.clock.time(crossing.instant);
         self.tally.crossing(crossing, time, self.scene.mass);
-        let taken = (self.crossed)(&Crossed {
+        let taken = (self.crossed)(&CrossingRow {
             time,
             before: self.before,
             crossing: *crossing,

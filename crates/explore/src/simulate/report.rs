@@ -3,10 +3,10 @@
 use serde_json::json;
 use softstop::{Impact, Start};
 
-use super::begin::Plan;
+use super::begin::RunPlan;
 use super::name;
-use super::run::Outcome;
-use super::tally::{Rest, Visit};
+use super::run::RunOutcome;
+use super::tally::{PhaseVisit, RestInterval};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
@@ -15,8 +15,8 @@ use softstop_console::record::{Record, below};
 use softstop_console::report::stated_machine;
 use softstop_console::table::{heading, sections};
 
-fn overview<'a>() -> [Column<Outcome<'a>>; 7] {
-    columns! { Outcome<'a>, it;
+fn overview<'a>() -> [Column<RunOutcome<'a>>; 7] {
+    columns! { RunOutcome<'a>, it;
         "periods" [None] Plain, "drive periods" => it.plan.periods;
         "period" [Time], "drive period" => it.plan.machine.scene.period();
         "duration" [Time] Seven, "time" => it.duration;
@@ -27,8 +27,8 @@ fn overview<'a>() -> [Column<Outcome<'a>>; 7] {
     }
 }
 
-fn impacts<'a>() -> [Column<Outcome<'a>>; 5] {
-    columns! { Outcome<'a>, it;
+fn impacts<'a>() -> [Column<RunOutcome<'a>>; 5] {
+    columns! { RunOutcome<'a>, it;
         "count" [None] Plain, "impacts" => it.tally.impacts.count;
         "per_period" [None] Seven, "impacts per period" => it.tally.impacts.count as f64 / it.plan.periods as f64;
         "least_before_impact_velocity" [Velocity] Seven, "lowest before-impact velocity" => it.tally.impacts.range.map(|it| it.0);
@@ -38,8 +38,8 @@ fn impacts<'a>() -> [Column<Outcome<'a>>; 5] {
 }
 
 /// supplied = dissipated + stored, but for the defect of rounding.
-fn energy<'a>() -> [Column<Outcome<'a>>; 4] {
-    columns! { Outcome<'a>, it;
+fn energy<'a>() -> [Column<RunOutcome<'a>>; 4] {
+    columns! { RunOutcome<'a>, it;
         "supplied" [Energy] Seven, "energy supplied" => it.tally.work.supplied;
         "dissipated" [Energy] Seven, "dissipated" => it.tally.work.dissipated.max(0.0);
         "stored" [Energy] Seven, "stored" => it.stored;
@@ -47,8 +47,8 @@ fn energy<'a>() -> [Column<Outcome<'a>>; 4] {
     }
 }
 
-fn visits() -> [Column<(Visit, f64)>; 4] {
-    columns! { (Visit, f64), it;
+fn visits() -> [Column<(PhaseVisit, f64)>; 4] {
+    columns! { (PhaseVisit, f64), it;
         "phase" [None] Plain, "which" => name(it.0.kind);
         "visits" [None] Plain, "how often it was entered" => it.0.visits;
         "time" [Time] Seven, "spent in it" => it.0.time;
@@ -56,8 +56,8 @@ fn visits() -> [Column<(Visit, f64)>; 4] {
     }
 }
 
-fn rests() -> [Column<Rest>; 4] {
-    columns! { Rest, it;
+fn rests() -> [Column<RestInterval>; 4] {
+    columns! { RestInterval, it;
         "phase" [None] Plain, "what holds the mass" => name(it.phase);
         "begin" [Time] Seven, "when" => it.begin;
         "end" [Time] Seven, "none if it lasts" => it.end;
@@ -84,7 +84,7 @@ fn state(state: Start) -> Told {
 }
 
 /// The chart's title.
-pub(super) fn chart_title(plan: &Plan) -> String {
+pub(super) fn chart_title(plan: &RunPlan) -> String {
     let (name, periods) = (title(&plan.machine), plan.periods);
     let drawn = periods.min(plan.drawn);
     match drawn == periods {
@@ -97,10 +97,10 @@ pub(super) fn chart_title(plan: &Plan) -> String {
 const SHOWN: usize = 10;
 
 /// The summary and the text of it; all impacts stand in crossings.csv, here the last ones.
-pub(crate) fn report(outcome: &Outcome<'_>) -> (Record, String) {
+pub(crate) fn report(outcome: &RunOutcome<'_>) -> (Record, String) {
     let (tally, machine) = (&outcome.tally, &outcome.plan.machine);
     let seen = tally.phases.iter();
-    let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
+    let seen: Vec<(PhaseVisit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
     let phases = Record::all(&visits(), &seen);
     let rests = Record::all(&rests(), &tally.rests);
     let last = Record::all(&blows(), &tally.impacts.recent);

@@ -4,11 +4,11 @@ use anyhow::anyhow;
 use softstop::internals::Motion;
 use softstop::{CheckedScene, Instant, Start};
 
-use super::begin::Plan;
+use super::begin::RunPlan;
 use super::name;
-use super::record::{Crossed, Recorder, contact_force};
-use super::tally::Tally;
-use crate::simulate::chart::Drawing;
+use super::record::{CrossingRow, MotionRecorder, contact_force};
+use super::tally::MotionTally;
+use crate::simulate::chart::DrawnMotion;
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
@@ -16,10 +16,10 @@ use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// What came of it.
-pub(crate) struct Outcome<'a> {
-    pub plan: &'a Plan,
-    pub tally: Tally,
-    pub drawing: Drawing,
+pub(crate) struct RunOutcome<'a> {
+    pub plan: &'a RunPlan,
+    pub tally: MotionTally,
+    pub drawing: DrawnMotion,
     /// Energy in J stored at the end less that at the start.
     pub stored: f64,
     pub end: Start,
@@ -30,7 +30,7 @@ pub(crate) struct Outcome<'a> {
 /// Share of the largest energy beyond which their balance tells that digits are lost.
 const MOST_DEFECT: f64 = 1e-9;
 
-impl Outcome<'_> {
+impl RunOutcome<'_> {
     /// Energy in J that the balance lacks.
     pub(super) fn defect(&self) -> f64 {
         let work = &self.tally.work;
@@ -54,18 +54,18 @@ impl Outcome<'_> {
     }
 }
 
-impl Plan {
+impl RunPlan {
     /// Runs the motion; what tables have is handed on as it comes.
     pub(crate) fn run(
         &self,
-        mut sampled: impl FnMut(&Sample) -> Result<(), Failure>,
-        crossed: impl FnMut(&Crossed) -> Result<(), Failure>,
-    ) -> Result<Outcome<'_>, Failure> {
+        mut sampled: impl FnMut(&MotionRow) -> Result<(), Failure>,
+        crossed: impl FnMut(&CrossingRow) -> Result<(), Failure>,
+    ) -> Result<RunOutcome<'_>, Failure> {
         let scene = &self.machine.scene;
         let mut motion = self.motion()?;
         let period = motion.clock().period();
         let before = motion.mechanical_energy(scene);
-        let mut recorder = Recorder::new(scene, &motion, crossed, self.drawn_from());
+        let mut recorder = MotionRecorder::new(scene, &motion, crossed, self.drawn_from());
         let progress = Progress::new(self.periods, "periods");
         for sample in 0..=self.periods * self.samples {
             let (cycle, part) = (sample / self.samples, sample % self.samples);
@@ -91,7 +91,7 @@ impl Plan {
         }
         drop(progress);
         let (tally, drawing) = recorder.finish(&motion);
-        let outcome = Outcome {
+        let outcome = RunOutcome {
             plan: self,
             tally,
             drawing,
@@ -104,10 +104,10 @@ impl Plan {
         Ok(outcome)
     }
 
-    fn sample(&self, motion: &Motion) -> Sample {
+    fn sample(&self, motion: &Motion) -> MotionRow {
         let state = motion.state();
         let drive = motion.clock().drive(motion.now());
-        Sample {
+        MotionRow {
             time: motion.clock().time(motion.now()),
             state,
             force: contact_force(&self.machine.scene, motion.phase(), state, drive),
@@ -117,7 +117,7 @@ impl Plan {
 }
 
 /// A row of motion.csv.
-pub(crate) struct Sample {
+pub(crate) struct MotionRow {
     time: f64,
     state: Start,
     force: f64,
@@ -125,8 +125,8 @@ pub(crate) struct Sample {
 }
 
 /// The columns of motion.csv.
-pub(super) fn columns() -> [Column<Sample>; 5] {
-    columns! { Sample, it;
+pub(super) fn columns() -> [Column<MotionRow>; 5] {
+    columns! { MotionRow, it;
         "time" [Time], "from the start" => it.time;
         "position" [Length], "of the mass" => it.state.position;
         "velocity" [Velocity], "of the mass" => it.state.velocity;

@@ -9,7 +9,7 @@ const MOST_RESTS: usize = 1000;
 
 /// The impacts of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Impacts {
+pub struct ImpactTally {
     /// How many.
     pub count: u64,
     sum: f64,
@@ -19,7 +19,7 @@ pub struct Impacts {
     pub recent: Vec<Impact>,
 }
 
-impl Impacts {
+impl ImpactTally {
     /// Mean before-impact velocity in m/s.
     pub fn mean(&self) -> Option<f64> {
         self.range.map(|_| self.sum / self.count as f64)
@@ -40,7 +40,7 @@ impl Impacts {
 
 /// A stretch of time during which the mass is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rest {
+pub struct RestInterval {
     /// By what: a face or dry friction.
     pub phase: PhaseKind,
     /// In s.
@@ -53,7 +53,7 @@ pub struct Rest {
 
 /// What was seen of one phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Visit {
+pub struct PhaseVisit {
     /// The phase.
     pub kind: PhaseKind,
     /// How often it was entered.
@@ -64,24 +64,24 @@ pub struct Visit {
 
 /// All sums of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Tally {
+pub struct MotionTally {
     /// Its impacts.
-    pub impacts: Impacts,
+    pub impacts: ImpactTally,
     /// Strips pierced through.
     pub pierced: u64,
     /// Rests counted.
     pub rest_count: u64,
     /// The first of them.
-    pub rests: Vec<Rest>,
+    pub rests: Vec<RestInterval>,
     /// Phases in order of their first visit.
-    pub phases: Vec<Visit>,
+    pub phases: Vec<PhaseVisit>,
     /// Energies in J.
     pub work: Work,
     /// The phase of the last arc; none after a rebound, which begins a new visit.
     last: Option<PhaseKind>,
 }
 
-impl Tally {
+impl MotionTally {
     /// Counts an arc of a phase.
     pub fn arc(&mut self, kind: PhaseKind, elapsed: f64) {
         let entered = u64::from(self.last != Some(kind));
@@ -91,7 +91,7 @@ impl Tally {
                 seen.visits += entered;
                 seen.time += elapsed;
             }
-            None => self.phases.push(Visit {
+            None => self.phases.push(PhaseVisit {
                 kind,
                 visits: entered,
                 time: elapsed,
@@ -100,7 +100,7 @@ impl Tally {
     }
 
     /// Counts a rest.
-    pub fn rest(&mut self, rest: Rest) {
+    pub fn rest(&mut self, rest: RestInterval) {
         self.rest_count += 1;
         if self.rests.len() < MOST_RESTS {
             self.rests.push(rest);

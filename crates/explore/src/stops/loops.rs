@@ -2,22 +2,22 @@
 //! paper's figure 2.
 
 use softstop::PhaseKind;
-use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Stroke as Line, style};
+use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Stroke, style};
 
-use crate::stops::stroke::{Rebound, Stroke, StrokePiece};
+use crate::stops::stroke::{ContactStroke, Rebound, StrokePiece};
 
 /// The lines of the first law and of the second.
-const LINES: [Line; 2] = [
-    Line::solid(style::DESIGN, 2.5),
-    Line::dashed(style::OPTIMUM, 2.5, (8.0, 5.0)),
+const LINES: [Stroke; 2] = [
+    Stroke::solid(style::DESIGN, 2.5),
+    Stroke::dashed(style::OPTIMUM, 2.5, (8.0, 5.0)),
 ];
 /// Zero of force and of deflection.
-const ZERO: Line = Line::solid(style::ASIDE, 1.0);
+const ZERO: Stroke = Stroke::solid(style::ASIDE, 1.0);
 /// Where on a piece its arrow stands, so that those of two ways on one curve stand apart.
 const ARROW_AT: f64 = 0.42;
 
 /// The picture of strokes, each with the name of its law, as an SVG document.
-pub fn svg(title: &str, subtitle: &str, strokes: &[(&str, Stroke)]) -> String {
+pub fn svg(title: &str, subtitle: &str, strokes: &[(&str, ContactStroke)]) -> String {
     let points = || strokes.iter().flat_map(|(_, stroke)| stroke.points());
     // A blow has no scale of force: nothing but its zero is marked.
     let yields = points().any(|(_, force)| force != 0.0);
@@ -53,7 +53,7 @@ pub fn svg(title: &str, subtitle: &str, strokes: &[(&str, Stroke)]) -> String {
 }
 
 /// The curve of a stroke with its arrows and names, up to the top of the panel where a stop does not yield.
-fn draw(layers: &mut Vec<Layer>, stroke: &Stroke, line: Line, name: &str, top: f64) {
+fn draw(layers: &mut Vec<Layer>, stroke: &ContactStroke, line: Stroke, name: &str, top: f64) {
     let mut points = Vec::new();
     for (index, piece) in stroke.pieces.iter().enumerate() {
         let wall = stroke.rebound.filter(|wall| wall.pieces_before == index);

@@ -16,8 +16,8 @@ use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
 use softstop_console::record::{Record, below};
-use stroke::Stroke;
-use zoo::{Exhibit, ZOO};
+use stroke::ContactStroke;
+use zoo::{StopPicture, ZOO};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,8 +43,8 @@ pub struct StopsArguments {
 }
 
 /// What is told of a picture.
-fn columns() -> [Column<Exhibit>; 3] {
-    columns! { Exhibit, it;
+fn columns() -> [Column<StopPicture>; 3] {
+    columns! { StopPicture, it;
         "name" [None] Plain, "its file, without ending" => it.name;
         "title" [None] Plain, "what it shows" => it.title;
         "velocity" [Velocity] Plain, "at the first touch" => it.speed;
@@ -73,7 +73,7 @@ const LEAD: f64 = 0.12;
 ///
 /// # Errors
 /// [`Failure`] if one of its scenes cannot be read or run.
-pub fn picture(exhibit: &Exhibit) -> Result<String, Failure> {
+pub fn picture(exhibit: &StopPicture) -> Result<String, Failure> {
     let stroke = |law: &(&'static str, &str)| Ok((law.0, stroke(exhibit, *law)?));
     let strokes = exhibit.laws.iter().map(stroke);
     let strokes = strokes.collect::<Result<Vec<_>, Failure>>()?;
@@ -82,11 +82,11 @@ pub fn picture(exhibit: &Exhibit) -> Result<String, Failure> {
 }
 
 /// The stroke of one law, with free flight in proportion to its depth.
-fn stroke(exhibit: &Exhibit, (label, scene): (&str, &str)) -> Result<Stroke, Failure> {
+fn stroke(exhibit: &StopPicture, (label, scene): (&str, &str)) -> Result<ContactStroke, Failure> {
     let scene = Scene::from_toml(scene);
     let scene = scene.map_err(|error| Failure::usage(format!("{label}: {error}")))?;
     let stroke = |lead| {
-        Stroke::new(&scene, exhibit.speed, lead, exhibit.damped)
+        ContactStroke::new(&scene, exhibit.speed, lead, exhibit.damped)
             .with_context(|| format!("cannot simulate the stroke of {label}"))
     };
     let depth = stroke(1.0)?.depth();

@@ -37,7 +37,7 @@ pub struct Rebound {
 
 /// A full stroke in and out.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Stroke {
+pub struct ContactStroke {
     /// Its pieces in order of time.
     pub pieces: Vec<StrokePiece>,
     /// The first hit on a rigid stop.
@@ -46,7 +46,7 @@ pub struct Stroke {
     pub exit_speed: Option<f64>,
 }
 
-impl Stroke {
+impl ContactStroke {
     /// The stroke of a scene's stop, which is met at `speed` m/s, from `lead` m before the
     /// clearance and back. The drive is taken away, and the dampers unless `damped`: then what
     /// contact adds to the damping stays.

@@ -4,7 +4,7 @@ use softstop::internals::scenes;
 
 /// One picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Exhibit {
+pub struct StopPicture {
     /// The picture's file, without `.svg`.
     pub name: &'static str,
     /// Its title.
@@ -18,8 +18,8 @@ pub struct Exhibit {
 }
 
 /// All pictures of the zoo.
-pub const ZOO: [Exhibit; 6] = [
-    Exhibit {
+pub const ZOO: [StopPicture; 6] = [
+    StopPicture {
         name: "kelvinVoigt",
         title: "Kelvin-Voigt: spring beside damper",
         speed: 6.0,
@@ -29,7 +29,7 @@ pub const ZOO: [Exhibit; 6] = [
             ("release at zero force", scenes::KELVIN_VOIGT_ZERO_FORCE),
         ],
     },
-    Exhibit {
+    StopPicture {
         name: "piecewiseLinear",
         title: "Piecewise linear: a chain of slopes",
         speed: 6.0,
@@ -42,7 +42,7 @@ pub const ZOO: [Exhibit; 6] = [
             ),
         ],
     },
-    Exhibit {
+    StopPicture {
         name: "hertz",
         title: "Hertz: the power law of contact",
         speed: 6.0,
@@ -55,21 +55,21 @@ pub const ZOO: [Exhibit; 6] = [
             ),
         ],
     },
-    Exhibit {
+    StopPicture {
         name: "preloaded",
         title: "Preloaded: a pre-stressed spring",
         speed: 20.0,
         damped: false,
         laws: &[("preload and spring", scenes::PRELOADED)],
     },
-    Exhibit {
+    StopPicture {
         name: "piercing",
         title: "Piercing: strip, preloaded stop, rigid stop",
         speed: 8.0,
         damped: false,
         laws: &[("phases I to IV", scenes::PIERCING)],
     },
-    Exhibit {
+    StopPicture {
         name: "rigid",
         title: "Rigid: Newton's restitution",
         speed: 6.0,

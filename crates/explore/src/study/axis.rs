@@ -24,7 +24,7 @@ pub(super) struct AxisSettings {
 
 /// What an axis changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
+pub(super) enum AxisTarget {
     Parameter(Parameter),
     Position,
     Velocity,
@@ -32,32 +32,32 @@ pub(super) enum Target {
 
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Axis {
+pub(super) struct StudyAxis {
     /// Its name: the key of the machine's file.
     pub name: String,
-    pub target: Target,
+    pub target: AxisTarget,
     /// The unit of its values in the machine's own ones.
     unit: f64,
     pub values: Values,
 }
 
-impl Axis {
+impl StudyAxis {
     /// What is stated of it, of this machine.
     pub fn new(machine: &Machine, stated: &AxisSettings) -> Result<Self, Failure> {
         let key = stated.parameter.as_str();
         let wrong = |what: String| Failure::usage(format!("axis {key}: {what}"));
         let (target, unit) = match key {
-            "initial.position" => (Target::Position, 1.0),
-            "initial.velocity" => (Target::Velocity, 1.0),
+            "initial.position" => (AxisTarget::Position, 1.0),
+            "initial.velocity" => (AxisTarget::Velocity, 1.0),
             _ => {
                 let unknown = |error| Failure::usage(format!("axis {error}"));
                 let (parameter, unit) = machine.free_parameter(key).map_err(unknown)?;
-                (Target::Parameter(parameter), unit)
+                (AxisTarget::Parameter(parameter), unit)
             }
         };
         // A letter and its key are one; a key that states a value otherwise is its own.
         let name = match target {
-            Target::Parameter(parameter) if unit == 1.0 => machine.name(parameter).to_owned(),
+            AxisTarget::Parameter(parameter) if unit == 1.0 => machine.name(parameter).to_owned(),
             _ => key.replace('-', "_"),
         };
         let axis = Self {
@@ -112,9 +112,9 @@ impl Axis {
     /// Gives the machine a value of it.
     pub fn set(&self, machine: &mut Machine, value: f64) {
         match self.target {
-            Target::Parameter(parameter) => machine.set(parameter, value * self.unit),
-            Target::Position => machine.start.position = value,
-            Target::Velocity => machine.start.velocity = value,
+            AxisTarget::Parameter(parameter) => machine.set(parameter, value * self.unit),
+            AxisTarget::Position => machine.start.position = value,
+            AxisTarget::Velocity => machine.start.velocity = value,
         }
     }
 
@@ -125,16 +125,16 @@ impl Axis {
             (units::name(machine, dimension), label)
         };
         match self.target {
-            Target::Parameter(parameter) if self.unit == 1.0 => {
+            AxisTarget::Parameter(parameter) if self.unit == 1.0 => {
                 let unit = units::of_parameter(machine, parameter);
                 (unit, machine.label_of(parameter))
             }
-            Target::Parameter(_) => {
+            AxisTarget::Parameter(_) => {
                 let unit = if self.unit > 1.0 { "Hz" } else { "rad/s" };
                 (unit, format!("drive frequency ({unit})"))
             }
-            Target::Position => of_state("initial position", "X", Dimension::Length),
-            Target::Velocity => of_state("initial velocity", "X′", Dimension::Velocity),
+            AxisTarget::Position => of_state("initial position", "X", Dimension::Length),
+            AxisTarget::Velocity => of_state("initial velocity", "X′", Dimension::Velocity),
         }
     }
 }

@@ -9,21 +9,21 @@ use softstop_console::failure::Failure;
 
 use super::blocks::Blocks;
 use super::file::Study;
-use super::outputs::{Output, is_over_budget};
+use super::outputs::{StudyOutput, is_over_budget};
 
 /// Words by the bits of the numbers that they stand for.
 type KnownWords = HashMap<[u64; 2], Option<Arc<str>>>;
 
 /// A column.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Column {
+pub(super) enum StudyColumn {
     /// Numbers, not a number where there is nothing.
     Numbers(Vec<f64>),
     /// Words, and how many rows have none since they are over the budget.
     Words(Vec<Option<Arc<str>>>, u64),
 }
 
-impl Column {
+impl StudyColumn {
     /// How many rows it has.
     pub fn len(&self) -> usize {
         match self {
@@ -57,7 +57,13 @@ impl Column {
     }
 
     /// Adds an output of so many points from its numbers in a block; equal words are one.
-    fn extend(&mut self, output: Output, numbers: &[f64], points: usize, known: &mut KnownWords) {
+    fn extend(
+        &mut self,
+        output: StudyOutput,
+        numbers: &[f64],
+        points: usize,
+        known: &mut KnownWords,
+    ) {
         match self {
             Self::Numbers(all) => all.extend(numbers),
             Self::Words(words, over_budget) => {
@@ -82,7 +88,7 @@ pub(super) fn group(
     study: &Study,
     blocks: &mut Blocks,
     group: Range<u64>,
-) -> Result<Vec<Column>, Failure> {
+) -> Result<Vec<StudyColumn>, Failure> {
     let points = study.block(group.start).start..study.block(group.end - 1).end;
     let mut columns = coordinates(study, points);
     columns.extend(outputs(study, blocks, group)?);
@@ -90,22 +96,26 @@ pub(super) fn group(
 }
 
 /// The values of the axes.
-fn coordinates(study: &Study, points: Range<u64>) -> Vec<Column> {
+fn coordinates(study: &Study, points: Range<u64>) -> Vec<StudyColumn> {
     let length = (points.end - points.start) as usize;
     let mut columns = vec![Vec::with_capacity(length); study.axes.len()];
     for point in points {
         study.each_value(point, |axis, value| columns[axis].push(value));
     }
-    columns.into_iter().map(Column::Numbers).collect()
+    columns.into_iter().map(StudyColumn::Numbers).collect()
 }
 
 /// The outputs.
-fn outputs(study: &Study, blocks: &mut Blocks, group: Range<u64>) -> Result<Vec<Column>, Failure> {
-    let empty = |output: &Output| match output.is_word() {
-        true => Column::Words(Vec::new(), 0),
-        false => Column::Numbers(Vec::new()),
+fn outputs(
+    study: &Study,
+    blocks: &mut Blocks,
+    group: Range<u64>,
+) -> Result<Vec<StudyColumn>, Failure> {
+    let empty = |output: &StudyOutput| match output.is_word() {
+        true => StudyColumn::Words(Vec::new(), 0),
+        false => StudyColumn::Numbers(Vec::new()),
     };
-    let mut columns: Vec<Column> = study.outputs.iter().map(empty).collect();
+    let mut columns: Vec<StudyColumn> = study.outputs.iter().map(empty).collect();
     let mut known = vec![KnownWords::new(); columns.len()];
     for block in group {
         let numbers = blocks.read(block)?;

@@ -10,7 +10,7 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::zone::hysteresis_batch;
 
 use super::file::Study;
-use super::outputs::{Need, Output};
+use super::outputs::{Need, StudyOutput};
 use super::point_evaluation::PointEvaluation;
 
 /// Points whose motions go together in the lanes: it may not depend on how many threads there are.
@@ -47,7 +47,7 @@ impl Study {
 
     /// The outputs of a point, none of which is there if they are over the budget.
     fn row(&self, evaluation: Option<&PointEvaluation<'_>>) -> Vec<f64> {
-        let told = |value: &dyn Fn(Output) -> [f64; 2]| {
+        let told = |value: &dyn Fn(StudyOutput) -> [f64; 2]| {
             let mut row = Vec::with_capacity(self.width());
             for output in &self.outputs {
                 row.extend(&value(*output)[..output.width()]);

@@ -14,9 +14,9 @@ use softstop_console::{record_log, scene_file};
 use softstop_dynamics::points::MAX_DIMENSIONS;
 use softstop_dynamics::settled::Settling;
 
-use super::axis::{Axis, AxisSettings};
+use super::axis::{AxisSettings, StudyAxis};
 use super::certainty::Certainty;
-use super::outputs::{Need, Output};
+use super::outputs::{Need, StudyOutput};
 
 /// The file.
 #[derive(Debug, Deserialize)]
@@ -74,11 +74,11 @@ pub struct Study {
     pub(super) machine: Machine,
     /// The same without words: there is one at each point.
     pub(super) wordless: Machine,
-    pub(super) axes: Vec<Axis>,
+    pub(super) axes: Vec<StudyAxis>,
     /// Samples at each point of the grid, if any axis is drawn.
     pub(super) samples: Option<u64>,
     pub(super) seed: u32,
-    pub(super) outputs: Vec<Output>,
+    pub(super) outputs: Vec<StudyOutput>,
     pub(super) settling: Settling,
     pub(super) certainty: Certainty,
     /// What a point may cost.
@@ -108,8 +108,11 @@ impl Study {
                 "axis: there are {many}, must be 1 to {MAX_DIMENSIONS}"
             )));
         }
-        let axes = file.axis.iter().map(|stated| Axis::new(&machine, stated));
-        let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
+        let axes = file
+            .axis
+            .iter()
+            .map(|stated| StudyAxis::new(&machine, stated));
+        let axes: Vec<StudyAxis> = axes.collect::<Result<_, _>>()?;
         for (index, axis) in axes.iter().enumerate() {
             if axes[..index]
                 .iter()
@@ -144,7 +147,8 @@ impl Study {
             )));
         };
         let outputs = outputs(&file.outputs)?;
-        let is_over_frequencies = |it: &&Output| it.needs(Need::Zone) || it.needs(Need::Grazing);
+        let is_over_frequencies =
+            |it: &&StudyOutput| it.needs(Need::Zone) || it.needs(Need::Grazing);
         if let Some(output) = outputs.iter().find(is_over_frequencies) {
             refuse_without_zone(&machine).map_err(|failure| match failure {
                 Failure::Usage(what) => Failure::usage(format!("outputs: {}: {what}", output.name)),
@@ -207,11 +211,11 @@ fn machine(file: &File, folder: &Path) -> Result<Machine, Failure> {
     arguments.machine()
 }
 
-fn outputs(names: &[String]) -> Result<Vec<Output>, Failure> {
-    let mut outputs: Vec<Output> = Vec::new();
+fn outputs(names: &[String]) -> Result<Vec<StudyOutput>, Failure> {
+    let mut outputs: Vec<StudyOutput> = Vec::new();
     for name in names {
-        let output = Output::named(name).ok_or_else(|| {
-            let all: Vec<&str> = Output::all().map(|it| it.name).collect();
+        let output = StudyOutput::named(name).ok_or_else(|| {
+            let all: Vec<&str> = StudyOutput::all().map(|it| it.name).collect();
             Failure::usage(format!(
                 "outputs: {name:?} is not known; there are {}",
                 all.join(", ")

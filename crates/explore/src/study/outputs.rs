@@ -11,7 +11,7 @@ use OutputKind::{Cycle, Kind, Number, Z};
 
 /// A column of a study's results.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Output {
+pub(super) struct StudyOutput {
     /// Its name.
     pub name: &'static str,
     /// What it is one of.
@@ -42,17 +42,17 @@ enum OutputKind {
     /// z = p/n, a word.
     Z,
     /// A number in SI units.
-    Number(Value),
+    Number(OutputValue),
     /// A figure of the cycle of a motion that repeats.
     Cycle(Figure),
 }
 
 /// Tells a number of a point in SI units.
-type Value = fn(&PointEvaluation<'_>) -> Option<f64>;
+type OutputValue = fn(&PointEvaluation<'_>) -> Option<f64>;
 
 macro_rules! outputs {
     ($($name:literal [$unit:ident] [$($need:ident)*], $meaning:literal => $kind:expr;)*) => {
-        &[$(Output {
+        &[$(StudyOutput {
             name: $name,
             unit: columns!(@unit $unit),
             needs: &[$(Need::$need),*],
@@ -63,7 +63,7 @@ macro_rules! outputs {
 }
 
 /// What is told of a point besides the figures that tasks know, too.
-const OBSERVABLES: &[Output] = outputs! {
+const OBSERVABLES: &[StudyOutput] = outputs! {
     "kind" [None] [Motion], "what the motion from the start settles on: periodic or chatter; chaos if it has not within motion.longest drive periods and small differences grow, unsettled if they do not; lost; over budget"
         => Kind;
     "settled_within" [None] [Motion], "drive periods within which it settles, seen after motion.periods and twice, four times ... as many; nothing if it does not"
@@ -92,7 +92,7 @@ const OBSERVABLES: &[Output] = outputs! {
 /// than those of certainty.
 fn figure_output(figure: Figure) -> Option<(&'static [Need], OutputKind)> {
     use Need::{Grazing, Motion, Zone};
-    let number = |needs: &'static [Need], value: Value| Some((needs, Number(value)));
+    let number = |needs: &'static [Need], value: OutputValue| Some((needs, Number(value)));
     match figure {
         Figure::Velocity => number(&[Motion], |it| Some(it.seen.as_ref()?.hardest_impact())),
         Figure::MaxPosition => number(&[Motion], |it| {
@@ -137,7 +137,7 @@ pub(super) fn is_over_budget(number: f64) -> bool {
     number.to_bits() == OVER.to_bits()
 }
 
-impl Output {
+impl StudyOutput {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
         let figures = Figure::ALL.iter().filter_map(|figure| {
@@ -234,7 +234,7 @@ fn kind(motion: &MotionKind) -> f64 {
 
 /// What outputs mean: a paragraph at the end of `--help`.
 pub(super) fn help() -> String {
-    let lines = Output::all().map(|output| {
+    let lines = StudyOutput::all().map(|output| {
         let unit = match Units::SI.name(output.unit) {
             "" => "-",
             unit => unit,

@@ -6,7 +6,7 @@ use softstop_draw::{Axis, Chart, Layer, Panel, Sign, style};
 use softstop_dynamics::Regime;
 use softstop_dynamics::motion::MotionClass;
 
-use super::plot::{PlotPoint, View};
+use super::plot::{PlotPoint, StudyView};
 use super::report::AxisReport;
 use super::values::Scale;
 use crate::palette::{motion_color, regime_class};
@@ -16,7 +16,7 @@ const DOT: f64 = 1.4;
 /// Words of a colour that the legend tells at most.
 const TOLD: usize = 3;
 
-impl View<'_> {
+impl StudyView<'_> {
     fn axis(&self, place: usize) -> &AxisReport {
         &self.manifest.axes[self.over[place]]
     }
@@ -53,7 +53,7 @@ impl View<'_> {
     /// # Errors
     /// [`Failure::Run`] if it cannot be drawn.
     pub fn map(&self, points: &[PlotPoint]) -> Result<Vec<u8>, Failure> {
-        let [across, up] = [0, 1].map(|place| Side::of(self.axis(place)));
+        let [across, up] = [0, 1].map(|place| MapSide::of(self.axis(place)));
         let mut cells: Vec<Option<&PlotPoint>> = vec![None; across.count * up.count];
         for point in points {
             let [x, y] = [(&across, 0), (&up, 1)].map(|(side, place)| side.cell(point.at[place]));
@@ -124,14 +124,14 @@ impl AxisReport {
 }
 
 /// A side of a map: a grid.
-struct Side {
+struct MapSide {
     count: usize,
     /// Where cells begin and end, as powers of ten on a logarithmic axis.
     range: (f64, f64),
     axis: Axis,
 }
 
-impl Side {
+impl MapSide {
     fn of(axis: &AxisReport) -> Self {
         let count = axis.values.count().unwrap_or(1);
         let chart_axis = axis.of_chart();

@@ -46,7 +46,7 @@ fn place(text: &str) -> Result<(String, f64), String> {
 }
 
 /// Which points of a study are drawn.
-pub(super) struct View<'a> {
+pub(super) struct StudyView<'a> {
     pub manifest: &'a Manifest,
     pub column: &'a ColumnReport,
     /// Numbers of the axes across and upwards.
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &PlotArguments) -> Result<(), Failure> {
     let text = scene_file::open(&place).and_then(io::read_to_string);
     let text = text.with_context(cannot)?;
     let manifest: Manifest = serde_json::from_str(&text).with_context(cannot)?;
-    let view = View::new(&manifest, arguments)?;
+    let view = StudyView::new(&manifest, arguments)?;
     let is_map = view.over.len() == 2;
     let kind = if is_map { "png" } else { "svg" };
     let name = format!("{}.{kind}", view.column.name);
@@ -98,7 +98,7 @@ pub(super) struct PlotPoint {
     pub word: Option<String>,
 }
 
-impl<'a> View<'a> {
+impl<'a> StudyView<'a> {
     fn new(manifest: &'a Manifest, arguments: &PlotArguments) -> Result<Self, Failure> {
         let columns = &manifest.columns;
         let column = match &arguments.of {

@@ -9,7 +9,7 @@ use parquet::data_type::{ByteArray, DataType};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use softstop_console::scene_file;
 
-use super::column::Column;
+use super::column::StudyColumn;
 
 /// Reads columns row group by row group: the first point of each, and the columns in this order.
 ///
@@ -18,7 +18,7 @@ use super::column::Column;
 pub(super) fn read(
     path: &Path,
     names: &[&str],
-    mut visit: impl FnMut(u64, &[Column]),
+    mut visit: impl FnMut(u64, &[StudyColumn]),
 ) -> Result<(), Error> {
     let reader = SerializedFileReader::new(scene_file::open(path)?)?;
     let schema = reader.metadata().file_metadata().schema_descr();
@@ -40,15 +40,15 @@ pub(super) fn read(
     Ok(())
 }
 
-fn column(reader: ColumnReader, rows: usize) -> Result<Column, Error> {
+fn column(reader: ColumnReader, rows: usize) -> Result<StudyColumn, Error> {
     Ok(match reader {
         ColumnReader::DoubleColumnReader(reader) => {
             let numbers = values(reader, rows)?.map(|it| it.unwrap_or(f64::NAN));
-            Column::Numbers(numbers.collect())
+            StudyColumn::Numbers(numbers.collect())
         }
         ColumnReader::ByteArrayColumnReader(reader) => {
             let word = |it: ByteArray| Arc::from(&*String::from_utf8_lossy(it.data()));
-            Column::Words(values(reader, rows)?.map(|it| it.map(word)).collect(), 0)
+            StudyColumn::Words(values(reader, rows)?.map(|it| it.map(word)).collect(), 0)
         }
         _ => bail!("it was not written by softstop"),
     })

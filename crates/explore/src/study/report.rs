@@ -15,7 +15,7 @@ use softstop_console::units;
 use softstop_dynamics::settled::Settling;
 
 use super::certainty::Certainty;
-use super::column::Column;
+use super::column::StudyColumn;
 use super::file::Study;
 use super::outputs::{OVER_BUDGET, is_over_budget};
 use super::values::Values;
@@ -44,10 +44,10 @@ fn is_none(count: &u64) -> bool {
 
 impl Summary {
     /// Adds what a column holds.
-    pub fn add(&mut self, column: &Column) {
+    pub fn add(&mut self, column: &StudyColumn) {
         match column {
-            Column::Numbers(numbers) => numbers.iter().for_each(|it| self.add_number(*it)),
-            Column::Words(words, over_budget) => {
+            StudyColumn::Numbers(numbers) => numbers.iter().for_each(|it| self.add_number(*it)),
+            StudyColumn::Words(words, over_budget) => {
                 self.over_budget += over_budget;
                 words.iter().flatten().for_each(|it| self.add_word(it));
             }

@@ -4,13 +4,13 @@ use serde_json::{Value, json};
 use softstop_console::schema;
 
 use super::file::MOST;
-use super::outputs::Output;
+use super::outputs::StudyOutput;
 
 /// The JSON Schema of such files (draft 2020-12).
 pub fn schema() -> Value {
     let number = json!({ "type": "number" });
     let range = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
-    let names: Vec<&str> = Output::all().map(|it| it.name).collect();
+    let names: Vec<&str> = StudyOutput::all().map(|it| it.name).collect();
     let count =
         |least: u64, most: u64| json!({ "type": "integer", "minimum": least, "maximum": most });
     let told = |mut schema: Value, what: &str| {

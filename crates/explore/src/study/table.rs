@@ -17,7 +17,7 @@ use softstop_console::output::Staged;
 use softstop_console::progress::Progress;
 
 use super::blocks::Blocks;
-use super::column::{self, Column};
+use super::column::{self, StudyColumn};
 use super::file::Study;
 use super::report::{Summary, unit};
 
@@ -66,7 +66,7 @@ pub(super) fn write(
 
 /// Puts a row group into the files.
 fn put(
-    columns: &[Column],
+    columns: &[StudyColumn],
     summaries: &mut [Summary],
     parquet: &mut SerializedFileWriter<File>,
     csv: Option<&mut Staged>,
@@ -158,18 +158,18 @@ fn told(study: &Study) -> Result<Vec<KeyValue>, Error> {
 }
 
 /// Adds a row group.
-fn add(parquet: &mut SerializedFileWriter<File>, columns: &[Column]) -> Result<(), Error> {
+fn add(parquet: &mut SerializedFileWriter<File>, columns: &[StudyColumn]) -> Result<(), Error> {
     let mut group = parquet.next_row_group()?;
     for column in columns {
         let mut writer = group.next_column()?.context("too few columns")?;
         match column {
-            Column::Numbers(numbers) => {
+            StudyColumn::Numbers(numbers) => {
                 let there: Vec<f64> = numbers.iter().copied().filter(|it| !it.is_nan()).collect();
                 let levels: Vec<i16> = numbers.iter().map(|it| i16::from(!it.is_nan())).collect();
                 let typed = writer.typed::<DoubleType>();
                 typed.write_batch(&there, Some(&levels), None)?;
             }
-            Column::Words(words, _) => {
+            StudyColumn::Words(words, _) => {
                 let there = words.iter().flatten();
                 let mut known: HashMap<&str, ByteArray> = HashMap::new();
                 let there =
@@ -187,7 +187,7 @@ fn add(parquet: &mut SerializedFileWriter<File>, columns: &[Column]) -> Result<(
     Ok(())
 }
 
-fn rows(csv: &mut Staged, columns: &[Column]) -> Result<(), Failure> {
+fn rows(csv: &mut Staged, columns: &[StudyColumn]) -> Result<(), Failure> {
     for row in 0..columns[0].len() {
         csv.row(columns.iter().map(|column| column.cell(row)))?;
     }

@@ -33,7 +33,7 @@ const GRAIN: f64 = 0.8;
 const SEEN: f64 = 0.15;
 
 /// What a panel shows of a step.
-type Show = fn(&SweepStep) -> Vec<f64>;
+type PanelValues = fn(&SweepStep) -> Vec<f64>;
 
 impl SweepChart<'_> {
     /// The picture as an SVG document.
@@ -57,7 +57,11 @@ impl SweepChart<'_> {
     }
 
     /// One of the panels, with its dots.
-    fn panel(&self, (what, symbol, dimension): (&str, &str, Dimension), show: Show) -> Panel {
+    fn panel(
+        &self,
+        (what, symbol, dimension): (&str, &str, Dimension),
+        show: PanelValues,
+    ) -> Panel {
         let (low, high) = self.plan.range;
         let room = 0.02 * (high - low);
         let (x, y) = ((low - room, high + room), self.range(show));
@@ -78,7 +82,7 @@ impl SweepChart<'_> {
     }
 
     /// Least and largest value with some room.
-    fn range(&self, show: Show) -> (f64, f64) {
+    fn range(&self, show: PanelValues) -> (f64, f64) {
         let steps = self.chains.iter().flat_map(|chain| &chain.steps);
         let (low, high) = around(steps.flat_map(show), 0.0);
         let low = match low {
@@ -90,7 +94,7 @@ impl SweepChart<'_> {
     }
 
     /// The points by the way on which they are seen, machine by machine; in squares of this grain all points are one.
-    fn points(&self, grain: (f64, f64), show: Show) -> [Vec<(f64, f64)>; 3] {
+    fn points(&self, grain: (f64, f64), show: PanelValues) -> [Vec<(f64, f64)>; 3] {
         let mut points: [Vec<(f64, f64)>; 3] = Default::default();
         let machines = self
             .chains

@@ -56,7 +56,7 @@ fn help() -> String {
 
 /// Which ways to go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Ways {
+pub enum SweepWays {
     /// The parameter rises
     Up,
     /// The parameter falls
@@ -65,7 +65,7 @@ pub enum Ways {
     Both,
 }
 
-impl Ways {
+impl SweepWays {
     fn directions(self) -> &'static [Direction] {
         match self {
             Self::Up => &[Direction::Up],
@@ -98,7 +98,7 @@ pub struct SweepArguments {
     pub periods: u64,
     /// Which way [default: both; down if --from lies above --to]
     #[arg(long, value_enum)]
-    pub direction: Option<Ways>,
+    pub direction: Option<SweepWays>,
     /// Several clearances, a sweep for each [default: that of the machine]
     #[arg(
         long,
@@ -229,9 +229,11 @@ fn chains(
         check(arguments, machine, parameter, [from, to])?;
     }
     let falls = from > to;
-    let ways = arguments
-        .direction
-        .unwrap_or(if falls { Ways::Down } else { Ways::Both });
+    let ways = arguments.direction.unwrap_or(if falls {
+        SweepWays::Down
+    } else {
+        SweepWays::Both
+    });
     let ways = ways.directions();
     let sweeps = machines.len() * ways.len();
     if arguments.steps * sweeps > MOST {

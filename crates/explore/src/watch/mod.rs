@@ -12,9 +12,9 @@ use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::folder_and_file;
 use softstop_console::range::within;
-use strip::Strips;
+use strip::StripHistory;
 
-use crate::simulate::{Crossed, MotionArguments, PERIODS, report};
+use crate::simulate::{CrossingRow, MotionArguments, PERIODS, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,9 +63,9 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
         .plan(arguments.periods, 1, arguments.last)?;
     let export = Export::of_file("html", folder, file)?;
     let scene = &plan.machine.scene;
-    let mut strips = scene.piercing.map(|_| Strips::new(scene.clearance));
+    let mut strips = scene.piercing.map(|_| StripHistory::new(scene.clearance));
     let (mut hits, from) = (Vec::new(), plan.drawn_from());
-    let crossed = |crossed: &Crossed| {
+    let crossed = |crossed: &CrossingRow| {
         strips.iter_mut().for_each(|strips| strips.take(crossed));
         hits.extend(hit(crossed).filter(|_| crossed.time >= from));
         Ok(())

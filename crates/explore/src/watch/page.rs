@@ -8,19 +8,23 @@ use softstop_console::failure::Failure;
 use softstop_console::record::Record;
 use softstop_console::report::stated_machine;
 
-use super::strip::Strip;
+use super::strip::StripState;
 use crate::page::{fill, in_script};
 use crate::palette::phase_color;
-use crate::simulate::{Crossed, Outcome, chart, crossing_columns, name};
+use crate::simulate::{CrossingRow, RunOutcome, chart, crossing_columns, name};
 
 /// A crossing as crossings.csv has it, if it is an impact or a rebound from a rigid stop.
-pub(super) fn hit(it: &Crossed) -> Option<Record> {
+pub(super) fn hit(it: &CrossingRow) -> Option<Record> {
     let is_hit = it.crossing.kind.is_impact() || it.kind() == "rebound";
     is_hit.then(|| Record::of(&crossing_columns(), it))
 }
 
 /// What the page shows of a run, in the machine's own units: from when on which strip lies there, and every hit.
-pub(super) fn shown(outcome: &Outcome<'_>, strips: &[(f64, Strip)], hits: Vec<Record>) -> Record {
+pub(super) fn shown(
+    outcome: &RunOutcome<'_>,
+    strips: &[(f64, StripState)],
+    hits: Vec<Record>,
+) -> Record {
     let machine = &outcome.plan.machine;
     let excitation = &machine.scene.excitation;
     // The drive `amplitude` cos(2 pi t/`period` + `angle`).
@@ -112,7 +116,7 @@ fn places(machine: &Machine) -> Record {
 
 /// Times, positions, velocities and forces of a drawing. Where an arc ends, the time of the crossing is told by the arc that
 /// follows.
-fn samples(drawing: &chart::Drawing) -> [Vec<f64>; 4] {
+fn samples(drawing: &chart::DrawnMotion) -> [Vec<f64>; 4] {
     let mut samples = [const { Vec::new() }; 4];
     for point in &drawing.points {
         if let Some(last) = samples[0].last_mut() {

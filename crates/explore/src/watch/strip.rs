@@ -3,12 +3,12 @@
 use serde::Serialize;
 use softstop::{CrossingKind, PhaseKind};
 
-use crate::simulate::Crossed;
+use crate::simulate::CrossingRow;
 
 /// The strip ahead of the stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Strip {
+pub(super) enum StripState {
     Whole,
     Pierced,
     Missing,
@@ -17,15 +17,15 @@ pub(super) enum Strip {
 /// What becomes of the strips in a run. A new one comes when the mass is back at the clearance; whether it came is seen
 /// from the stroke that follows.
 #[derive(Debug)]
-pub(super) struct Strips {
+pub(super) struct StripHistory {
     clearance: f64,
     /// From when on in s which one lies there.
-    changes: Vec<(f64, Strip)>,
+    changes: Vec<(f64, StripState)>,
     /// The stroke that has just begun.
     is_new: bool,
 }
 
-impl Strips {
+impl StripHistory {
     /// A run from time 0, with a strip.
     pub(super) const fn new(clearance: f64) -> Self {
         Self {
@@ -36,20 +36,20 @@ impl Strips {
     }
 
     /// Takes in a crossing.
-    pub(super) fn take(&mut self, it: &Crossed) {
+    pub(super) fn take(&mut self, it: &CrossingRow) {
         self.see(it.before);
         let crossing = &it.crossing;
         let is_back = matches!(crossing.kind, CrossingKind::Surface { forward: false, .. });
         if crossing.pierces() {
-            self.changes.push((it.time, Strip::Pierced));
+            self.changes.push((it.time, StripState::Pierced));
         } else if is_back && crossing.position <= self.clearance {
-            self.changes.push((it.time, Strip::Whole));
+            self.changes.push((it.time, StripState::Whole));
             self.is_new = true;
         }
     }
 
     /// All changes; the last arc of the run is of this kind.
-    pub(super) fn finish(mut self, last: PhaseKind) -> Vec<(f64, Strip)> {
+    pub(super) fn finish(mut self, last: PhaseKind) -> Vec<(f64, StripState)> {
         self.see(last);
         self.changes
     }
@@ -63,8 +63,8 @@ impl Strips {
         let has_strip = matches!(kind, PhaseKind::Pierce | PhaseKind::Cut);
         if !has_strip {
             match self.changes.last_mut() {
-                Some(change) => change.1 = Strip::Missing,
-                None => self.changes.push((0.0, Strip::Missing)),
+                Some(change) => change.1 = StripState::Missing,
+                None => self.changes.push((0.0, StripState::Missing)),
             }
         }
     }
@@ -76,7 +76,7 @@ mod tests {
 
     use super::*;
 
-    fn crossed(time: f64, before: PhaseKind, kind: CrossingKind, position: f64) -> Crossed {
+    fn crossed(time: f64, before: PhaseKind, kind: CrossingKind, position: f64) -> CrossingRow {
         let crossing = Crossing {
             instant: Instant {
                 cycles: 0.0,
@@ -89,7 +89,7 @@ mod tests {
             acceleration_before: 0.0,
             acceleration_after: 0.0,
         };
-        Crossed {
+        CrossingRow {
             time,
             before,
             crossing,
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_strip_is_pierced_and_followed_by_the_next_or_by_none() {
-        let mut strips = Strips::new(10.0);
+        let mut strips = StripHistory::new(10.0);
         for it in [
             crossed(1.0, PhaseKind::Free, passed(true, true, false), 10.0),
             crossed(1.1, PhaseKind::Pierce, passed(true, false, true), 10.4),
@@ -118,16 +118,16 @@ mod tests {
             strips.take(&it);
         }
         let expected = [
-            (1.1, Strip::Pierced),
-            (1.4, Strip::Missing),
-            (2.3, Strip::Whole),
+            (1.1, StripState::Pierced),
+            (1.4, StripState::Missing),
+            (2.3, StripState::Whole),
         ];
         assert_eq!(strips.finish(PhaseKind::Free), expected);
     }
 
     #[test]
     fn a_run_that_begins_without_a_strip_says_so() {
-        let strips = Strips::new(0.0);
-        assert_eq!(strips.finish(PhaseKind::Gap), [(0.0, Strip::Missing)]);
+        let strips = StripHistory::new(0.0);
+        assert_eq!(strips.finish(PhaseKind::Gap), [(0.0, StripState::Missing)]);
     }
 }

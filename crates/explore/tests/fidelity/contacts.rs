@@ -155,11 +155,11 @@ fn without_damping_a_preloaded_contact_obeys_the_energy_equivalence() -> Outcome
     let d = contact.penetration;
     assert_relative(contact.restitution, 1.0, 10.0 * ROUNDING);
     assert_relative(preload * d + 0.5 * stiffness * d * d, speed * speed, MOTION);
-    let ladder = Ladder {
+    let ladder = ModelHierarchy {
         truth: scene,
-        likeness: Likeness::Penetration,
+        likeness: MatchedProperty::Penetration,
     };
-    let Stop::KelvinVoigt { stiffness: k, .. } = ladder.model(Rung::KelvinVoigt, speed)?.stop
+    let Stop::KelvinVoigt { stiffness: k, .. } = ladder.model(ContactLaw::KelvinVoigt, speed)?.stop
     else {
         return Err("no spring".into());
     };

@@ -7,8 +7,8 @@ mod observed;
 use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
 use softstop_dynamics::Regime;
 use softstop_explore::fidelity::models::{
-    Answers, Contact, FidelityError, Ladder, Likeness, Quantity, Rung, cheapest, from_model,
-    from_truth, matching,
+    Contact, ContactLaw, FidelityError, MatchedProperty, ModelHierarchy, ObservedFigures, Quantity,
+    cheapest, from_model, from_truth, matching,
 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;

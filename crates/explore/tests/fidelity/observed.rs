@@ -8,7 +8,7 @@ use softstop_testing::tolerance::{DIFFERENCED, MOTION, SOLVED, printed};
 #[test]
 fn what_is_observed_balances() -> Outcome {
     let truth = Ratios::loaded().scene()?;
-    let observed = Answers::settled(&truth, None, FLUNG)?;
+    let observed = ObservedFigures::settled(&truth, None, FLUNG)?;
     let period = truth.period();
     let trajectory = truth.trajectory(observed.start, 1)?;
     let power = observed.value(Quantity::MeanPower).ok_or("a motion")?;
@@ -17,7 +17,7 @@ fn what_is_observed_balances() -> Outcome {
     let contact = lost.ok_or("it strikes")?;
     assert!(contact < trajectory.work().dissipated);
     let rigid = machine(Stop::Rigid { restitution: 0.6 }, 0.08);
-    let observed = Answers::settled(&rigid, None, FLUNG)?;
+    let observed = ObservedFigures::settled(&rigid, None, FLUNG)?;
     let velocity = from_truth(&observed)?;
     let lost = 0.5 * 2.0 * velocity * velocity * (1.0 - 0.36);
     let energy = observed.value(Quantity::EnergyPerImpact);
@@ -30,7 +30,7 @@ fn what_is_observed_balances() -> Outcome {
 #[test]
 fn the_largest_force_is_that_of_the_samples_and_no_less() -> Outcome {
     let truth = Ratios::unloaded().scene()?;
-    let observed = Answers::settled(&truth, None, FLUNG)?;
+    let observed = ObservedFigures::settled(&truth, None, FLUNG)?;
     let peak = observed.value(Quantity::PeakForce).ok_or("it strikes")?;
     let mut simulation = softstop::Simulation::new(&truth, observed.start)?;
     let mut seen = 0.0f64;
@@ -46,7 +46,7 @@ fn the_largest_force_is_that_of_the_samples_and_no_less() -> Outcome {
 #[test]
 fn bounds_are_those_of_the_paper() -> Outcome {
     let truth = Ratios::unloaded().scene()?;
-    let observed = Answers::settled(&truth, None, FLUNG)?;
+    let observed = ObservedFigures::settled(&truth, None, FLUNG)?;
     let found = observed.with_bounds(&truth)?;
     let bound = |quantity: Quantity| found.value(quantity).ok_or(quantity.name());
     let grazing = bound(Quantity::GrazingFrequency)?;
@@ -54,7 +54,7 @@ fn bounds_are_those_of_the_paper() -> Outcome {
     assert_relative(bound(Quantity::FlipFrequency)?, 0.988_907, printed(6));
     assert_relative(bound(Quantity::FoldFrequency)?, 1.369_036, printed(6));
     let still = machine(Stop::None, 0.08);
-    let observed = Answers::settled(&still, None, FLUNG)?;
+    let observed = ObservedFigures::settled(&still, None, FLUNG)?;
     let found = observed.with_bounds(&still)?;
     let grazing = found.value(Quantity::GrazingFrequency).ok_or("g0")?;
     assert_relative(grazing, 1.044_440_04, 2.0 * printed(8));
@@ -111,7 +111,7 @@ fn the_cheapest_within_the_tolerance_is_named() -> Outcome {
 #[test]
 fn errors_are_relative_and_angles_wrap() -> Outcome {
     let truth = Ratios::unloaded().scene()?;
-    let observed = Answers::settled(&truth, None, FLUNG)?;
+    let observed = ObservedFigures::settled(&truth, None, FLUNG)?;
     let answers = |impact_phase, velocity| {
         let mut observed = observed;
         observed.values[Quantity::ImpactPhase as usize] = Some(impact_phase);

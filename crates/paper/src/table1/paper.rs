@@ -1,5 +1,6 @@
 //! What the paper prints in its Table 1: the figures and names with which ours are compared.
 
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
@@ -23,13 +24,10 @@ pub struct PaperRow {
 
 /// The table (Peterka 2003, Table 1), in the file `docs/paper/table-1.toml`.
 pub static ROWS: LazyLock<Vec<PaperRow>> = LazyLock::new(|| {
-    #[derive(Deserialize)]
-    struct File {
-        row: Vec<PaperRow>,
-    }
-    let file: File = toml::from_str(include_str!("../../../../docs/paper/table-1.toml"))
-        .expect("the file that is built in holds rows");
-    file.row
+    let file: BTreeMap<String, Vec<PaperRow>> =
+        toml::from_str(include_str!("../../../../docs/paper/table-1.toml"))
+            .expect("the file that is built in holds rows");
+    file.into_values().flatten().collect()
 });
 
 /// Its sub-intervals (a) to (d) of eta, from the first of their rows to the last, and how many values are

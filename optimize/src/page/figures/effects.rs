@@ -3,7 +3,7 @@
 use softstop::{Dimension, Machine};
 use softstop_draw::{Align, Axis, Layer, Panel, Stroke, style};
 
-use crate::optimize::study::Study;
+use crate::optimize::study::ToleranceStudy;
 use crate::order::sort_falling;
 use crate::page::figure::{Figure, HALF, Section};
 use crate::page::words::quantity;
@@ -16,7 +16,7 @@ const BAR: (f64, f64) = (0.48, 0.82);
 const ROOM: f64 = 2.1;
 
 /// The picture; the largest effect first.
-pub(super) fn effects(machine: &Machine, study: &Study) -> Figure {
+pub(super) fn effects(machine: &Machine, study: &ToleranceStudy) -> Figure {
     let velocities = &study.sensitivities.velocity;
     let effects = study.tolerances.iter().zip(velocities);
     let effects = effects.map(|(tolerance, effect)| {

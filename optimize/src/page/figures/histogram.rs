@@ -6,7 +6,7 @@ use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Panel, style};
 
 use crate::design::Design;
-use crate::optimize::study::Study;
+use crate::optimize::study::ToleranceStudy;
 use crate::page::figure::{AT, Figure, HALF, Section, bounds};
 use crate::page::words::{count, quantity};
 
@@ -14,7 +14,7 @@ use crate::page::words::{count, quantity};
 const BARS: usize = 40;
 
 /// The picture.
-pub(super) fn histogram(design: &Design, study: &Study) -> Figure {
+pub(super) fn histogram(design: &Design, study: &ToleranceStudy) -> Figure {
     let machine = &design.machine;
     let own = |value: f64| machine.to_own(Dimension::Velocity, value);
     let bins = study.verdict.histogram(BARS);

@@ -8,7 +8,7 @@ use softstop_dynamics::{Zone, parallel};
 
 use super::velocity;
 use crate::design::{Design, Problem, space};
-use crate::page::branches::{BORDERS, Motions};
+use crate::page::branches::{BORDERS, ZoneBranches};
 use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles, pieces};
 use crate::page::words::quantity;
 
@@ -63,7 +63,7 @@ fn map(
     };
     let scenes: Vec<Scene> = (0..CELLS.1).map(at).collect();
     let zones = problem.zones_of(&scenes);
-    let rows = parallel::map(&zones, |zone| Some(Motions::of(zone.as_ref().ok()?)));
+    let rows = parallel::map(&zones, |zone| Some(ZoneBranches::of(zone.as_ref().ok()?)));
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
     let borders = BORDERS.iter().zip(STROKES).enumerate();
     let curves = borders.flat_map(|(index, (name, stroke))| {

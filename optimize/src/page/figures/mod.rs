@@ -18,7 +18,7 @@ use softstop::{Dimension, Machine};
 use super::figure::Figure;
 use crate::design::Problem;
 use crate::optimize::outcome::{Outcome, for_picture};
-use crate::optimize::study::Study;
+use crate::optimize::study::ToleranceStudy;
 
 pub use pareto::pareto;
 pub use response::response;
@@ -28,7 +28,7 @@ pub use sketch::sketch;
 pub fn figures(
     problem: &Problem,
     outcome: &Outcome,
-    study: Option<&Study>,
+    study: Option<&ToleranceStudy>,
 ) -> (Vec<Figure>, Vec<String>) {
     let design = outcome.design();
     let (maps, (motions, basin)) = join(

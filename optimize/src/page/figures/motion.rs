@@ -6,7 +6,7 @@ use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Panel};
 use softstop_dynamics::CycleMetrics;
 
-use super::portrait::{Period, faces};
+use super::portrait::{SampledPeriod, faces};
 use crate::design::Design;
 use crate::page::figure::{BOUND, DESIGN, Figure, Section, WIDE};
 use crate::page::words::quantity;
@@ -15,7 +15,7 @@ use crate::page::words::quantity;
 const PERIODS: u32 = 2;
 
 /// The picture of the first of these motions, the design's.
-pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
+pub(super) fn motion(design: &Design, motions: &[SampledPeriod]) -> Figure {
     let machine = &design.machine;
     let periods = motions.iter().take(1).flat_map(|motion| {
         let shifted = |count: u32| {

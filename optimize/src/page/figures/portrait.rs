@@ -17,7 +17,7 @@ const FEWEST: f64 = 12.0;
 const NEAR: (f64, f64) = (0.8, 0.15);
 
 /// One period of a motion.
-pub(super) struct Period {
+pub(super) struct SampledPeriod {
     /// Its length in s.
     pub(super) length: f64,
     /// Time in s, position in m, velocity in m/s and force of contact in N.
@@ -25,13 +25,13 @@ pub(super) struct Period {
 }
 
 /// The design's motion, and then that of the machine to which no strip is fed, if it has a strip and such a motion.
-pub(super) fn motions(design: &Design) -> Vec<Period> {
+pub(super) fn motions(design: &Design) -> Vec<SampledPeriod> {
     let bare = unfed(&design.machine.scene).and_then(|scene| {
         let near = Orbit::find_near(&scene, design.orbit.state());
         near.or_else(|_| zone::find(&scene)).ok()
     });
-    let bare = bare.as_ref().map(Period::of);
-    [Period::of(&design.orbit)]
+    let bare = bare.as_ref().map(SampledPeriod::of);
+    [SampledPeriod::of(&design.orbit)]
         .into_iter()
         .chain(bare)
         .collect()
@@ -45,7 +45,7 @@ fn unfed(scene: &Scene) -> Option<Scene> {
     Some(scene)
 }
 
-impl Period {
+impl SampledPeriod {
     /// That of a motion; without points if it cannot be computed.
     fn of(orbit: &Orbit) -> Self {
         let scene = &orbit.scene;
@@ -101,7 +101,7 @@ pub(super) fn faces(scene: &Scene) -> Vec<(&'static str, f64)> {
 }
 
 /// The picture.
-pub(super) fn portrait(design: &Design, motions: &[Period]) -> Figure {
+pub(super) fn portrait(design: &Design, motions: &[SampledPeriod]) -> Figure {
     let machine = &design.machine;
     let names = match motions.len() {
         1 => ["design", ""],

@@ -11,8 +11,8 @@ use softstop_dynamics::{Zone, parallel, zone};
 use super::velocity;
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
-use crate::optimize::study::Study;
-use crate::page::branches::{BORDERS, Motions};
+use crate::optimize::study::ToleranceStudy;
+use crate::page::branches::{BORDERS, ZoneBranches};
 use crate::page::figure::{
     BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines, pieces,
 };
@@ -32,18 +32,18 @@ pub fn response(
     problem: &Problem,
     design: &Design,
     references: &[Reference],
-    study: Option<&Study>,
+    study: Option<&ToleranceStudy>,
 ) -> Figure {
     let machine = &design.machine;
     let own = |frequency: f64| design.own_frequency(frequency);
-    let motions = Motions::of(&design.zone);
+    let motions = ZoneBranches::of(&design.zone);
     let corners = study.map_or_else(Vec::new, |it| corners(machine, it));
     let bands = bands(problem, &corners);
     let mut curves = motions.unstable(machine, "design, unstable", UNSTABLE);
     for it in references {
         let scenes = slice::from_ref(&it.machine.scene);
         if let Ok(zone) = zone::find_zones(problem.zone, scenes, &interrupt::watch).remove(0) {
-            curves.extend(Motions::of(&zone).stable(&it.machine, &it.title(), BESIDE));
+            curves.extend(ZoneBranches::of(&zone).stable(&it.machine, &it.title(), BESIDE));
         }
     }
     curves.extend(motions.stable(machine, "design, stable", DESIGN));
@@ -124,7 +124,7 @@ fn caption(machine: &Machine, at: (f64, f64), ends: &[(&str, f64)], machines: us
 const CORNERS: usize = 64;
 
 /// Machines at corners of the tolerances but that of the drive's frequency.
-fn corners(machine: &Machine, study: &Study) -> Vec<Machine> {
+fn corners(machine: &Machine, study: &ToleranceStudy) -> Vec<Machine> {
     let is_kept = |it: &&AbsoluteTolerance| it.parameter != Parameter::Frequency;
     let all: Vec<AbsoluteTolerance> = study.tolerances.iter().filter(is_kept).copied().collect();
     match Tolerances::new(machine, &all) {
@@ -147,8 +147,8 @@ fn bands(problem: &Problem, machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
     let (Ok(zones), Some(machine)) = (zones, machines.first()) else {
         return Vec::new();
     };
-    let all = parallel::map(&zones, |it| Motions::of(it).refined(it));
-    let ends = || all.iter().map(Motions::range);
+    let all = parallel::map(&zones, |it| ZoneBranches::of(it).refined(it));
+    let ends = || all.iter().map(ZoneBranches::range);
     let low = ends().map(|it| it[0]).fold(0.0, f64::max);
     let high = ends().map(|it| it[1]).fold(f64::INFINITY, f64::min);
     let at = |index: usize| {

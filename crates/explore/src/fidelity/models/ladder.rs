@@ -8,7 +8,7 @@ use softstop::{Release, Scene, Stop};
 
 /// A rung: a law of contact, simple ones first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rung {
+pub enum ContactLaw {
     /// No stop.
     Linear,
     /// A rigid stop at the clearance with the contact's restitution.
@@ -23,7 +23,7 @@ pub enum Rung {
     Full,
 }
 
-impl Rung {
+impl ContactLaw {
     /// All rungs.
     pub const ALL: [Self; 6] = [
         Self::Linear,
@@ -65,7 +65,7 @@ impl Rung {
     }
 }
 
-impl fmt::Display for Rung {
+impl fmt::Display for ContactLaw {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name())
     }
@@ -73,7 +73,7 @@ impl fmt::Display for Rung {
 
 /// What a soft model has in common with the scene's contact, besides the restitution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Likeness {
+pub enum MatchedProperty {
     /// The largest penetration: without damping, the energy stored there, 1/2 k d^2 = E(d).
     #[default]
     Penetration,
@@ -83,27 +83,27 @@ pub enum Likeness {
 
 /// The models of one scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ladder {
+pub struct ModelHierarchy {
     /// The scene itself: what the models are measured by.
     pub truth: Scene,
     /// What soft models have in common with its contact.
-    pub likeness: Likeness,
+    pub likeness: MatchedProperty,
 }
 
 /// Hertz's exponent, of a sphere.
 const SPHERE: f64 = 1.5;
 
-impl Ladder {
+impl ModelHierarchy {
     /// The rungs below a scene and its own, simple ones first. A preloaded stop is a model only of a
     /// scene that has one, behind a strip or before a rigid stop.
-    pub fn rungs(&self) -> Vec<Rung> {
-        let own = Rung::of(&self.truth);
-        let fits = |rung: &Rung| match rung {
-            Rung::Full | Rung::Linear => *rung == own || *rung == Rung::Linear,
-            Rung::Preloaded => matches!(self.truth.stop, Stop::Preloaded { .. }),
-            _ => own != Rung::Linear,
+    pub fn rungs(&self) -> Vec<ContactLaw> {
+        let own = ContactLaw::of(&self.truth);
+        let fits = |rung: &ContactLaw| match rung {
+            ContactLaw::Full | ContactLaw::Linear => *rung == own || *rung == ContactLaw::Linear,
+            ContactLaw::Preloaded => matches!(self.truth.stop, Stop::Preloaded { .. }),
+            _ => own != ContactLaw::Linear,
         };
-        Rung::ALL.into_iter().filter(fits).collect()
+        ContactLaw::ALL.into_iter().filter(fits).collect()
     }
 
     /// The model of a rung, matched at a before-impact velocity in m/s. On its own rung the scene is its
@@ -112,10 +112,10 @@ impl Ladder {
     /// # Errors
     /// [`FidelityError::Unmatched`] if no contact of this law behaves like the scene's,
     /// [`FidelityError::Motion`] if that cannot be computed.
-    pub fn model(&self, rung: Rung, velocity: f64) -> Result<Scene, FidelityError> {
-        let scene = if rung == Rung::of(&self.truth) {
+    pub fn model(&self, rung: ContactLaw, velocity: f64) -> Result<Scene, FidelityError> {
+        let scene = if rung == ContactLaw::of(&self.truth) {
             self.truth.clone()
-        } else if rung == Rung::Linear {
+        } else if rung == ContactLaw::Linear {
             self.plain(Stop::None)
         } else {
             self.matched(rung, &Contact::of(&self.truth, velocity)?)?
@@ -135,14 +135,14 @@ impl Ladder {
         }
     }
 
-    fn matched(&self, rung: Rung, contact: &Contact) -> Result<Scene, FidelityError> {
+    fn matched(&self, rung: ContactLaw, contact: &Contact) -> Result<Scene, FidelityError> {
         let restitution = contact.restitution.min(1.0);
         let found = match rung {
-            Rung::Rigid => Some(self.plain(Stop::Rigid { restitution })),
-            Rung::KelvinVoigt => self.kelvin_voigt(contact, restitution),
-            Rung::Hertz => self.hertz(contact, restitution)?,
-            Rung::Preloaded => self.preloaded(contact)?,
-            Rung::Linear | Rung::Full => None,
+            ContactLaw::Rigid => Some(self.plain(Stop::Rigid { restitution })),
+            ContactLaw::KelvinVoigt => self.kelvin_voigt(contact, restitution),
+            ContactLaw::Hertz => self.hertz(contact, restitution)?,
+            ContactLaw::Preloaded => self.preloaded(contact)?,
+            ContactLaw::Linear | ContactLaw::Full => None,
         };
         found.ok_or_else(|| FidelityError::Unmatched {
             rung,
@@ -157,10 +157,10 @@ impl Ladder {
         };
         let zeta = matching::damping_ratio(release, restitution)?;
         let frequency = match self.likeness {
-            Likeness::Penetration => {
+            MatchedProperty::Penetration => {
                 matching::penetration(zeta) * contact.velocity / contact.penetration
             }
-            Likeness::Duration => matching::duration(release, zeta) / contact.duration,
+            MatchedProperty::Duration => matching::duration(release, zeta) / contact.duration,
         };
         let stiffness = self.truth.mass * frequency * frequency;
         let scene = Scene {
@@ -189,7 +189,7 @@ impl Ladder {
         if !is_soft(stiffness) {
             return Ok(None);
         }
-        if self.likeness == Likeness::Penetration {
+        if self.likeness == MatchedProperty::Penetration {
             return Ok(Some(scene(stiffness)));
         }
         // At equal v and lambda all contacts are alike: lengths and times go with k^(-1/(n+1)).
@@ -228,14 +228,14 @@ impl Ladder {
         let excess = |preload: f64| {
             let like = of(preload, damping(preload));
             match self.likeness {
-                Likeness::Penetration => like.penetration - contact.penetration,
-                Likeness::Duration => like.duration - contact.duration,
+                MatchedProperty::Penetration => like.penetration - contact.penetration,
+                MatchedProperty::Duration => like.duration - contact.duration,
             }
         };
         // A constant force that stops the mass in half the way, or in half the time.
         let strongest = match self.likeness {
-            Likeness::Penetration => mass * speed * speed / contact.penetration,
-            Likeness::Duration => 4.0 * mass * speed / contact.duration,
+            MatchedProperty::Penetration => mass * speed * speed / contact.penetration,
+            MatchedProperty::Duration => 4.0 * mass * speed / contact.duration,
         };
         Ok(root(excess, 0.0, strongest).map(|preload| scene(preload, damping(preload))))
     }

@@ -1,11 +1,11 @@
 //! No more model than a scene needs: one machine with ever simpler stops, and how far each simpler model
 //! is from it.
 //!
-//! A [`Ladder`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
+//! A [`ModelHierarchy`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
 //! it agrees with the scene's own contact ([`Contact`]) at one velocity, the *operating velocity*. What a
-//! model gives are [`Answers`] of its motion, the bounds of its z = 1 motion among them
+//! model gives are [`ObservedFigures`] of its motion, the bounds of its z = 1 motion among them
 //! ([`StabilityBounds`](softstop_dynamics::zone::StabilityBounds));
-//! [`Answers::error`] tells how far a [`Quantity`] of it is from that of the scene itself.
+//! [`ObservedFigures::error`] tells how far a [`Quantity`] of it is from that of the scene itself.
 
 mod contact;
 mod ladder;
@@ -15,8 +15,8 @@ mod operating;
 mod quantity;
 
 pub use contact::Contact;
-pub use ladder::{Ladder, Likeness, Rung};
-pub use observation::Answers;
+pub use ladder::{ContactLaw, MatchedProperty, ModelHierarchy};
+pub use observation::ObservedFigures;
 pub use operating::{from_model, from_truth};
 pub use quantity::{Quantity, cheapest};
 
@@ -32,7 +32,7 @@ pub enum FidelityError {
     #[error("no {rung} contact matches: {reason}")]
     Unmatched {
         /// The rung.
-        rung: Rung,
+        rung: ContactLaw,
         /// Why not.
         reason: String,
     },

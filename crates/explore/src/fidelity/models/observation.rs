@@ -12,7 +12,7 @@ use super::Quantity;
 
 /// What the settled motion of a machine gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answers {
+pub struct ObservedFigures {
     /// Position in m and velocity in m/s at drive angle phi with which it was observed from.
     pub start: Start,
     /// Its regime; none if it does not repeat.
@@ -26,7 +26,7 @@ const TRANSIENT: u64 = 400;
 /// Drive periods over which a motion is observed that does not repeat.
 const LONG: u64 = 200;
 
-impl Answers {
+impl ObservedFigures {
     /// The stable z = 1 motion of a scene: the one that Newton's method reaches from `hint`, else the one
     /// that a search finds. If there is none, what the motion from `start` has settled on.
     ///

@@ -1,13 +1,13 @@
 //! The velocity at which models are matched.
 
-use super::{Answers, FidelityError, Ladder, Quantity, Rung};
+use super::{ContactLaw, FidelityError, ModelHierarchy, ObservedFigures, Quantity};
 use softstop::{Scene, Start};
 
 /// The before-impact velocity in m/s of the scene's own motion.
 ///
 /// # Errors
 /// [`FidelityError::NoImpact`] if it has no impact.
-pub fn from_truth(observed: &Answers) -> Result<f64, FidelityError> {
+pub fn from_truth(observed: &ObservedFigures) -> Result<f64, FidelityError> {
     let velocity = observed.value(Quantity::BeforeImpactVelocity);
     let velocity = velocity.filter(|velocity| *velocity > 0.0);
     velocity.ok_or(FidelityError::NoImpact)
@@ -23,19 +23,19 @@ const SETTLED: f64 = 1e-9;
 ///
 /// # Errors
 /// [`FidelityError::Unsettled`] if the iteration does not settle, [`FidelityError::NoImpact`] if the
-/// model's motion loses its impacts, and what [`Ladder::model`] gives.
+/// model's motion loses its impacts, and what [`ModelHierarchy::model`] gives.
 pub fn from_model(
-    ladder: &Ladder,
-    rung: Rung,
+    ladder: &ModelHierarchy,
+    rung: ContactLaw,
     start: Start,
-) -> Result<(Scene, Answers), FidelityError> {
+) -> Result<(Scene, ObservedFigures), FidelityError> {
     let truth = &ladder.truth;
     let mut velocity = truth.motion_scales().speed();
     let mut hint = None;
     for _ in 0..MAX_ROUNDS {
         let model = ladder.model(rung, velocity)?;
-        let observed = Answers::settled(&model, hint, start)?;
-        if rung == Rung::Linear || model == *truth {
+        let observed = ObservedFigures::settled(&model, hint, start)?;
+        if rung == ContactLaw::Linear || model == *truth {
             return Ok((model, observed));
         }
         let next = from_truth(&observed)?;
