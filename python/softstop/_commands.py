@@ -455,7 +455,7 @@ def basins(
     >>> import softstop as ss
     >>> found = ss.basins(ss.Machine.unloaded(clearance=10), "eta", (1.15, 1.25), steps=2, size=20)
     >>> found.tables["attractors"].value, found.tables["attractors"].z
-    (array([1.15, 1.15, 1.25, 1.25]), array([0., 1., 0., 1.]))
+    (array([1.15, 1.15, 1.25, 1.25]), array(['0', '1', '0', '1'], dtype='<U1'))
     """
     low, high = between
     options = _plane(x, v, phi, plane, size, at=at, transient=transient, longest=longest, budget=budget)

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _softstop, plot
 from ._checks import checked
 from ._machine import Machine
-from ._table import Table
+from ._table import WORDS, Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -333,7 +333,7 @@ def _records(rows: Sequence[Mapping[str, Any]], names: str) -> Table:
 
     def column(name: str) -> Any:
         cells = [row[name] for row in rows]
-        if any(isinstance(cell, str) for cell in cells):
+        if name in WORDS or any(isinstance(cell, str) for cell in cells):
             return cells
         kind = np.bool_ if cells and all(isinstance(cell, bool) for cell in cells) else np.float64
         return np.array([np.nan if cell is None else cell for cell in cells], dtype=kind)

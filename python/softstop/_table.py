@@ -13,11 +13,13 @@ import numpy.typing as npt
 from . import _softstop
 
 Column = npt.NDArray[np.float64] | npt.NDArray[np.bool_] | npt.NDArray[np.str_]
+WORDS = frozenset("before_impact_velocities direction kind order special symbol z".split())
+"""Columns of words whatever their cells are: a regime z = p/n is "1" or "2/3"."""
 
 
 class Table:
     """Columns of equal length, by name as keys and attributes: arrays of numbers (NaN: no value), of True and False, or of words
-    ("": no value).
+    ("": no value). Always words are kind, z (p/n: "1", "2/3"), order, special, symbol, direction and before_impact_velocities.
 
     pandas, polars, pyarrow and DuckDB read it by Arrow's PyCapsule interface: `polars.DataFrame(table)`,
     `pandas.DataFrame.from_arrow(table)`, `pyarrow.table(table)`.
@@ -46,7 +48,7 @@ class Table:
         ('time', 'kind')
         """
         head, *rows = csv.reader(io.StringIO(text))
-        return cls({name: _column([row[index] for row in rows]) for index, name in enumerate(head)})
+        return cls({name: _column(name, [row[index] for row in rows]) for index, name in enumerate(head)})
 
     def __getitem__(self, name: str) -> Any:
         return self._columns[name]
@@ -86,10 +88,12 @@ class Table:
         return f"<table><caption>{len(self)} rows</caption><tr>{head}</tr>{rows}</table>"
 
 
-def _column(cells: list[str]) -> Column:
-    """Numbers, if all cells that are not empty are numbers; True and False; or words."""
+def _column(name: str, cells: list[str]) -> Column:
+    """Words, if the name says so; numbers, if all cells that are not empty are numbers; True and False; or words."""
+    words = np.array(cells, dtype=np.str_)
+    if name in WORDS:
+        return words
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
     except ValueError:
-        words = np.array(cells)
         return words == "true" if np.isin(words, ["true", "false"]).all() else words

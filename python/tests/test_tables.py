@@ -35,3 +35,17 @@ def test_columns_choose_rows():
     modulus = np.hypot(points.multiplier1_real, points.multiplier1_imaginary)
     assert (points.stable == (modulus < 1))[points.special == ""].all()
     assert polars.DataFrame(points)["stable"].to_list() == points.stable.tolist()
+
+
+@pytest.mark.parametrize("between", [(1.1, 1.2), (0.9, 1.5)])
+def test_words_are_words_whatever_they_look_like(between):
+    points = ss.sweep(A, between, steps=9, periods=300).points
+    branch = ss.continue_(A, "eta", between)
+    study = ss.study({"outputs": ["kind", "z"], "axis": [{"parameter": "eta", "from": between[0], "to": between[1], "count": 3}]},
+                     machine=A).tables["study"]
+    words = [points.z, points.order, points.direction, points.before_impact_velocities, branch.points.special,
+             branch.specials.symbol, study.z, ss.basin(A, size=4).tables["basin"].z]
+    assert {column.dtype.kind for column in words} == {"U"}
+    assert "0" in points.z
+    schema = pyarrow.table(points).schema
+    assert {str(schema.field(name).type) for name in ("z", "order", "kind")} == {"string"}
