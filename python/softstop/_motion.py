@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
 
 class Motion:
-    """An exact motion from time 0 over whole drive periods, as `simulate` follows it.
+    """An exact motion from time 0 over whole drive periods, as `simulate` follows it. Pickled, it is machine, start and forces,
+    and is followed again, to the same bits, where it is read.
 
     Attributes
     ----------
@@ -40,7 +41,7 @@ class Motion:
         self.machine = machine
         self._start = start
         self._periods = periods
-        self._is_forced = len(forces[0]) > 0
+        self._forces = forces
         self._inner = _softstop.Trajectory(machine._inner, start, periods, forces)
 
     @property
@@ -116,5 +117,8 @@ class Motion:
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
         # The program draws motions without forces.
-        picture = {} if self._is_forced else {"image/svg+xml": picture_of(self.machine, self._start, self._periods)}
+        picture = {} if len(self._forces[0]) else {"image/svg+xml": picture_of(self.machine, self._start, self._periods)}
         return {"text/plain": repr(self)} | picture
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Motion, (self.machine, self._start, self._periods, self._forces)

@@ -70,6 +70,10 @@ def test_pickle_and_hash():
     assert dict(again) == dict(orbit)
     assert again.gradient("velocity", ["clearance"]) == orbit.gradient("velocity", ["clearance"])
     assert len({A, A.replace(clearance=10), A.replace(clearance=9)}) == 2
+    motion = ss.simulate(A, start=(0.1, 14), periods=30, forces=([0.3, 5, 9], [1, 2, 0]))
+    again = pickle.loads(pickle.dumps(motion))
+    assert again.end == motion.end and again.energies == motion.energies
+    assert (again.impacts.time == motion.impacts.time).all()
 
 
 def resident():
