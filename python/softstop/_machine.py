@@ -270,7 +270,7 @@ class Machine(Mapping[str, float]):
         >>> Machine.from_toml(Machine.unloaded().to_toml()) == Machine.unloaded()
         True
         """
-        return cls._of(_softstop.Machine.from_toml(text))
+        return cls._of(_softstop.Machine.from_toml(text, None))
 
     @classmethod
     @checked
@@ -419,7 +419,7 @@ def _of_table(table: Mapping[str, Any]) -> _softstop.Machine:
 
 @checked
 def read(path: str | os.PathLike[str]) -> Machine:
-    """The machine of a TOML file.
+    """The machine of a TOML file, called as the file if that gives it no name.
 
     Parameters
     ----------
@@ -446,4 +446,5 @@ def read(path: str | os.PathLike[str]) -> Machine:
     ...     read(f"{folder}/machine.toml") == Machine.unloaded()
     True
     """
-    return Machine.from_toml(pathlib.Path(path).read_text(encoding="utf-8"))
+    file = pathlib.Path(path)
+    return Machine._of(_softstop.Machine.from_toml(file.read_text(encoding="utf-8"), file.stem))

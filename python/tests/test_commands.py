@@ -74,10 +74,11 @@ def test_a_branch_begins_at_a_point_of_an_earlier_one(program, tmp_path):
 def test_a_machine_of_a_file_is_the_machine_of_the_program(program):
     for file in sorted((TOP / "docs/scenes").glob("*.toml")):
         machine = ss.read(file)
+        assert machine.name == file.stem
         assert ss.Machine.from_toml(machine.to_toml()) == machine
-    press = ss.read(TOP / "docs/press/press.toml")
-    printed = json.loads(program("orbit", TOP / "docs/press/press.toml", "--format=json"))
-    assert dict(ss.orbit(press)) == printed
+    for file in ["docs/press/press.toml", "docs/scenes/hertz.toml"]:
+        printed = json.loads(program("orbit", TOP / file, "--format=json"))
+        assert dict(ss.orbit(ss.read(TOP / file))) == printed
 
 
 def test_optimize_finds_the_design_of_the_program(program, tmp_path):

@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use softstop::{Dimension, Machine as Stated};
 use softstop_console::failure::Failure;
+use softstop_console::names::file_stem;
 use softstop_optimize::fmu::{Standard, archive, library};
 use softstop_optimize::page::figures::sketch;
 
@@ -18,17 +19,18 @@ pub struct Machine {
 
 #[pymethods]
 impl Machine {
-    /// The machine of a file's text, in TOML.
+    /// The machine of a file's text, in TOML, called as the file if it has no name.
     #[staticmethod]
-    fn from_toml(text: &str) -> PyResult<Self> {
-        let stated = Stated::from_toml(text).map_err(|error| of_machine(&error))?;
+    fn from_toml(text: &str, stem: Option<&str>) -> PyResult<Self> {
+        let mut stated = Stated::from_toml(text).map_err(|error| of_machine(&error))?;
+        stated.name = stated.name.or_else(|| stem.map(file_stem));
         Ok(Self { stated })
     }
 
     /// The machine of a file's content as JSON.
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
-        Self::from_toml(&json_to_toml(text)?)
+        Self::from_toml(&json_to_toml(text)?, None)
     }
 
     /// The paper's `unloaded` or `loaded` machine.
