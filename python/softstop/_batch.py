@@ -188,9 +188,10 @@ def simulate(
     Raises
     ------
     MachineError
-        With the parameter, its value and the allowed range.
+        With the parameter, its value and the allowed range: if one value of the machine, or of a start, cannot be, no motion is
+        followed.
     SoftstopError
-        If the motion cannot be followed.
+        If the motion cannot be followed; of many, `errors` of the result says which cannot, as from beyond a rigid stop.
 
     Examples
     --------
@@ -270,7 +271,7 @@ def exponents(
     Raises
     ------
     MachineError
-        With the parameter, its value and the allowed range.
+        As of `simulate`.
     SoftstopError
         If the motion, if it is one, cannot be followed.
 

@@ -32,6 +32,8 @@ A = ss.Machine.unloaded(eta=1.15, clearance=10)
     (lambda: ss.simulate(A, periods=1_000_000), r"periods = 1000000: must be a whole number in \[1, 100000\]"),
     (lambda: ss.simulate(A, start=3), "start = 3: must be"),
     (lambda: ss.simulate(A, start=(np.inf, 0)), "position = inf"),
+    (lambda: ss.simulate(A, start=(0, [14, np.nan])), "velocity = NaN: must be finite"),
+    (lambda: ss.exponents(A, eta=[1.1, 1.2], start=(np.nan, 0)), "position = NaN: must be finite"),
     (lambda: A.replace(clearence=3), "did you mean clearance"),
     (lambda: A.replace(start=3), "start = 3: must be"),
     (lambda: A.replace(stop=ss.Rigid(1.8)), "stop.restitution = 1.8"),

@@ -13,6 +13,7 @@ from conftest import TOP
 
 CALLS = {
     "simulate": "ss.simulate(m, eta=0.98, start=(np.zeros(1000), np.linspace(10, 14, 1000)), periods=1_000_000, keep=1)",
+    "simulate machines": "ss.simulate(m, eta=np.linspace(0.8, 1.8, 1_000_000), start=(0, 14), periods=100_000)",
     "exponents": "ss.exponents(m, eta=np.linspace(0.96, 0.98, 100), start=(0, 12), periods=1_000_000)",
     "motions": "ss.motions(m, starts=1_000_000)",
     "sweep": "ss.sweep(m, (0.8, 1.8), steps=100_000)",
@@ -57,4 +58,6 @@ def seconds_to_end(call):
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 @pytest.mark.parametrize("name", CALLS)
 def test_ctrl_c(name):
-    print(f"{name}: {seconds_to_end(CALLS[name]):.3f} s")
+    seconds = seconds_to_end(CALLS[name])
+    print(f"{name}: {seconds:.3f} s")
+    assert seconds < 3

@@ -1,16 +1,14 @@
 //! Many motions at once, in the lanes.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use softstop::Start;
 use softstop_console::interrupt;
-use softstop_console::progress::Progress;
-use softstop_lanes::{BatchObserver, Instructions, Job, LoweredMachine, Outcome, run_parallel};
+use softstop_lanes::{BatchObserver, Outcome};
 
-use crate::errors::of_scene;
 use crate::machine::Machine;
 use crate::rows::{Array, Changes, Rows, States};
 use crate::supervise::{Teller, supervise_in_pool};
@@ -37,8 +35,10 @@ pub struct Batch {
 /// Motion, time in the drive period in s, before-impact velocity in m/s, number of the drive period.
 type Impact = (usize, f64, f64, u64);
 
-/// Impacts of a range of jobs.
+/// Impacts of a batch.
 struct Impacts {
+    /// The row of job 0.
+    first: usize,
     /// First drive period whose impacts are kept.
     from: u64,
     kept: Vec<Impact>,
@@ -49,7 +49,7 @@ impl BatchObserver for Impacts {
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         if cycle >= self.from {
-            self.kept.push((job, offset, velocity, cycle));
+            self.kept.push((self.first + job, offset, velocity, cycle));
         }
     }
 
@@ -58,8 +58,8 @@ impl BatchObserver for Impacts {
     }
 }
 
-/// Nothing is kept.
-struct Ends;
+/// Nothing is kept: motions that settle are leapt over.
+pub struct Ends;
 
 impl BatchObserver for Ends {
     fn goes_on(&mut self) -> ControlFlow<()> {
@@ -84,11 +84,10 @@ pub fn follow<'py>(
     progress: Teller<'py>,
 ) -> PyResult<Batch> {
     let rows = Rows::new(machine, &changes, &start)?;
-    let followed = supervise_in_pool(py, &progress, || {
-        let machines = rows.lowered()?;
+    let (outcomes, kept, times) = supervise_in_pool(py, &progress, || -> PyResult<_> {
         let (outcomes, kept) = match keep {
-            0 => (ends(&machines, &rows.jobs(periods)), Vec::new()),
-            _ => impacts(&machines, &rows.jobs(periods), periods.saturating_sub(keep)),
+            0 => (rows.follow(periods, |_| Ends)?.0, Vec::new()),
+            _ => impacts(&rows, periods, periods.saturating_sub(keep))?,
         };
         let of_motion = |impacts: &[Impact]| {
             let period = rows.scene(impacts[0].0).period();
@@ -100,8 +99,7 @@ pub fn follow<'py>(
             .flat_map_iter(of_motion);
         let times: Vec<f64> = times.collect();
         Ok((outcomes, kept, times))
-    })?;
-    let (outcomes, kept, times) = followed.map_err(|error| of_scene(&error))?;
+    })??;
     let mut offsets = vec![0_i64; outcomes.len() + 1];
     for (job, ..) in &kept {
         offsets[job + 1] += 1;
@@ -128,31 +126,14 @@ pub fn follow<'py>(
     })
 }
 
-/// What jobs come to; motions that settle are leapt over.
-pub fn ends(machines: &[LoweredMachine], jobs: &[Job]) -> Vec<Outcome> {
-    let progress = Progress::new(jobs.len() as u64, "motions");
-    let watch = |part: Range<usize>| {
-        progress.more(part.len() as u64);
-        Ends
-    };
-    run_parallel(Instructions::Widest, machines, jobs, watch).0
-}
-
-/// What jobs come to, and their impacts from a drive period on, job after job.
-fn impacts(machines: &[LoweredMachine], jobs: &[Job], from: u64) -> (Vec<Outcome>, Vec<Impact>) {
-    let progress = Progress::new(jobs.len() as u64, "motions");
-    let watch = |part: Range<usize>| {
-        progress.more(part.len() as u64);
-        Impacts {
-            from,
-            kept: Vec::new(),
-        }
-    };
-    let (outcomes, watches) = run_parallel(Instructions::Widest, machines, jobs, watch);
-    if interrupt::requested() {
-        return (outcomes, Vec::new());
-    }
+/// What motions come to, and their impacts from a drive period on, motion after motion.
+fn impacts(rows: &Rows<'_>, periods: u64, from: u64) -> PyResult<(Vec<Outcome>, Vec<Impact>)> {
+    let (outcomes, watches) = rows.follow(periods, |first| Impacts {
+        first,
+        from,
+        kept: Vec::new(),
+    })?;
     let mut kept: Vec<Impact> = watches.into_iter().flat_map(|it| it.kept).collect();
     kept.sort_by_key(|(job, ..)| *job);
-    (outcomes, kept)
+    Ok((outcomes, kept))
 }

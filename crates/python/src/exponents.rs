@@ -8,8 +8,7 @@ use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::LyapunovExponents;
 
-use crate::batch::ends;
-use crate::errors::of_scene;
+use crate::batch::Ends;
 use crate::machine::Machine;
 use crate::rows::{Array, Changes, Rows, States};
 use crate::supervise::{Teller, supervise_in_pool};
@@ -33,9 +32,8 @@ pub fn exponents<'py>(
     progress: Teller<'py>,
 ) -> PyResult<Columns> {
     let rows = Rows::new(machine, &changes, &start)?;
-    let found = supervise_in_pool(py, &progress, || {
-        let machines = rows.lowered()?;
-        let settled = ends(&machines, &rows.jobs(transient));
+    let found = supervise_in_pool(py, &progress, || -> PyResult<_> {
+        let (settled, _) = rows.follow(transient, |_| Ends)?;
         let progress = Progress::new(rows.len() as u64, "exponents");
         let along = |row: usize| {
             if let Some(error) = &settled[row].error {
@@ -53,8 +51,7 @@ pub fn exponents<'py>(
         let found: Vec<Result<LyapunovExponents, Failure>> =
             (0..rows.len()).into_par_iter().map(along).collect();
         Ok(found)
-    })?;
-    let found = found.map_err(|error| of_scene(&error))?;
+    })??;
     let column = |value: &dyn Fn(&LyapunovExponents) -> f64| {
         let value = |it: &Result<_, _>| it.as_ref().map_or(f64::NAN, value);
         let values: Vec<f64> = found.iter().map(value).collect();

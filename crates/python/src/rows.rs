@@ -1,12 +1,17 @@
 //! Many machines and starts from arrays, row by row.
 
+use std::ops::Range;
+
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use softstop::{Machine as Stated, Parameter, Scene, SceneError, Start};
-use softstop_lanes::{Job, LoweredMachine};
+use softstop::{Machine as Stated, MotionError, Parameter, Scene, Start};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+use softstop_lanes::{BatchObserver, Instructions, Job, LoweredMachine, Outcome, run_parallel};
 
-use crate::errors::{MachineError, of_machine};
+use crate::errors::{MachineError, of_failure, of_machine, of_motion, of_scene};
 use crate::machine::Machine;
 
 /// Numbers as Python has them.
@@ -15,6 +20,9 @@ pub type Array = Py<PyArray1<f64>>;
 pub type Changes<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
 /// Positions in m and velocities in m/s.
 pub type States<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>);
+
+/// Rows whose machines are in memory at once, some 7 kB each: whole batches of the lanes, enough for many threads.
+const BLOCK: usize = 1 << 15;
 
 /// A machine and a start for each row.
 pub struct Rows<'a> {
@@ -28,7 +36,7 @@ impl<'a> Rows<'a> {
     /// Rows of arrays of one length.
     ///
     /// # Errors
-    /// `MachineError` for an unknown key, or arrays of different lengths.
+    /// `MachineError` for an unknown key, arrays of different lengths, or a start that is not finite.
     pub fn new(
         machine: &'a Machine,
         changes: &'a Changes<'_>,
@@ -48,6 +56,11 @@ impl<'a> Rows<'a> {
         }
         if columns.iter().any(|(.., values)| values.len() != x.len()) || v.len() != x.len() {
             return Err(MachineError::new_err("arrays of different lengths"));
+        }
+        for (name, values) in [("position", x), ("velocity", v)] {
+            if let Some(&value) = values.iter().find(|it| !it.is_finite()) {
+                return Err(of_motion(&MotionError::NotFinite { name, value }));
+            }
         }
         Ok(Self {
             stated,
@@ -71,32 +84,64 @@ impl<'a> Rows<'a> {
         own
     }
 
-    /// The scene of a row, once all are [lowered](Self::lowered).
+    /// The scene of a row, once all are [followed](Self::follow).
     pub fn scene(&self, row: usize) -> Scene {
         self.machine(row).scene
     }
 
-    /// The machines ready for the lanes; one for all rows where nothing is changed.
+    /// Follows the motion of each row over whole drive periods, block by block, each batch of the lanes with an observer that
+    /// `watch` makes for rows counted from this one on.
     ///
     /// # Errors
-    /// [`SceneError`] of one that cannot be, in its own units.
-    pub fn lowered(&self) -> Result<Vec<LoweredMachine>, SceneError> {
-        let machines = match self.columns.is_empty() {
-            true => self.len().min(1),
-            false => self.len(),
-        };
-        let lowered = |row| Ok(LoweredMachine::new(&self.machine(row).check(None)?));
-        (0..machines).into_par_iter().map(lowered).collect()
+    /// `MachineError` of a machine that cannot be, in its own units; `KeyboardInterrupt` after Ctrl-C.
+    pub fn follow<W: BatchObserver + Send>(
+        &self,
+        periods: u64,
+        watch: impl Fn(usize) -> W + Sync,
+    ) -> PyResult<(Vec<Outcome>, Vec<W>)> {
+        let progress = Progress::new(self.len() as u64, "motions");
+        let (mut outcomes, mut watches) = (Vec::new(), Vec::new());
+        for first in (0..self.len()).step_by(BLOCK) {
+            let block = first..self.len().min(first + BLOCK);
+            let machines = self.lowered(block.clone())?;
+            let job = |row: usize| Job {
+                machine: (row - first).min(machines.len() - 1),
+                start: Start::new(self.x[row], self.v[row]),
+                periods,
+            };
+            let jobs: Vec<Job> = block.map(job).collect();
+            let watch = |part: Range<usize>| {
+                progress.more(part.len() as u64);
+                watch(first)
+            };
+            let done = run_parallel(Instructions::Widest, &machines, &jobs, watch);
+            outcomes.extend(done.0);
+            watches.extend(done.1);
+            go_on()?;
+        }
+        Ok((outcomes, watches))
     }
 
-    /// A job for each row.
-    pub fn jobs(&self, periods: u64) -> Vec<Job> {
-        let states = self.x.iter().zip(self.v).enumerate();
-        let job = |(row, (x, v)): (usize, (&f64, &f64))| Job {
-            machine: if self.columns.is_empty() { 0 } else { row },
-            start: Start::new(*x, *v),
-            periods,
+    /// The machines of a block ready for the lanes; one for all rows where nothing is changed.
+    fn lowered(&self, block: Range<usize>) -> PyResult<Vec<LoweredMachine>> {
+        let machines = match self.columns.is_empty() {
+            true => block.start..block.start + 1,
+            false => block,
         };
-        states.map(job).collect()
+        let lowered = |row| {
+            go_on()?;
+            let checked = self.machine(row).check(None);
+            Ok(LoweredMachine::new(
+                &checked.map_err(|error| of_scene(&error))?,
+            ))
+        };
+        machines.into_par_iter().map(lowered).collect()
+    }
+}
+
+fn go_on() -> PyResult<()> {
+    match interrupt::requested() {
+        true => Err(of_failure(Failure::Interrupted)),
+        false => Ok(()),
     }
 }
