@@ -175,6 +175,7 @@ def require(holds, what):
 
 def check(claimed):
     """Proves all that is claimed."""
+    require(claimed.get("format") == "softstop certificate 1", f"format {claimed.get('format')!r} is unknown")
     motion, boxes = Motion(claimed), [[iv.mpf(it) for it in claimed[name]] for name in ("unique", "enclosure")]
     require(motion.events and all(b in a for a, b in zip(*boxes)), "the motion is the one in the box")
     kinds, guards, _ = zip(*map(motion.event, range(motion.count)))

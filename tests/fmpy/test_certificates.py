@@ -105,6 +105,7 @@ def falsified(proof):
             it[box][index] = [low + away, high + away]
         return change
 
+    yield wrong(lambda it: it.update(format="softstop certificate 2"), "format 'softstop certificate 2' is unknown")
     yield wrong(move("enclosure", 2, 1.5), "one motion in the box")
     yield wrong(move("unique", 0, 3.0), "the motion is the one in the box")
     yield wrong(lambda it: it.update(unique=it["enclosure"], enclosure=it["unique"]), "the motion is the one in the box")
