@@ -58,8 +58,8 @@ pub use integrator::{
 pub use machine::{Machine, UnitSystem};
 pub use phases::PhaseKind;
 pub use scene::{
-    Allowed, Below, Dimension, Excitation, Parameter, ParameterInfo, Piercing, Ratios, Release,
-    RigidStop, Scene, Slope, Stop, Ties, Units, Wall,
+    Allowed, Below, Dimension, Excitation, Parameter, ParameterInfo, Ratios, Release, RigidStop,
+    Scene, Slope, Stop, Strip, Ties, Units, Wall,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
 pub use trajectory::{AppliedForce, ImpactEvent, KeptArc, Trajectory};

@@ -1,7 +1,7 @@
 //! Bad input gives an error that names the parameter and its value; nothing panics or hangs.
 
 use proptest::prelude::*;
-use softstop::{Excitation, MotionError, Piercing, Ratios, Scene, Simulation, Start, Stop};
+use softstop::{Excitation, MotionError, Ratios, Scene, Simulation, Start, Stop, Strip};
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{assert_near, cases, hertz, loaded, preloaded};
 
@@ -100,7 +100,7 @@ proptest! {
             rigid: None,
             below: None,
             stop: Stop::Preloaded { stiffness: k, preload: p },
-            piercing: Some(Piercing { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
+            piercing: Some(Strip { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
             followers: softstop::Ties::NONE,
         };
         if let Ok(mut motion) = scene.motion(Start::new(position, velocity)) {

@@ -2,7 +2,7 @@
 //! over-represented, against dense sampling of an independent step-by-step evaluation.
 
 use proptest::prelude::*;
-use softstop::{Clock, DriveAngle, PhaseKind, Piercing, Ratios, Scene, Start, Trajectory};
+use softstop::{Clock, DriveAngle, PhaseKind, Ratios, Scene, Start, Strip, Trajectory};
 use softstop_testing::{Meets, cases};
 
 /// Classical Runge-Kutta in steps so small that its error is far below the margin that is looked
@@ -181,7 +181,7 @@ fn any_machine() -> impl Strategy<Value = Ratios> {
                     stiffness,
                     preload,
                     rigid: None,
-                    piercing: loaded.then_some(Piercing::PAPER),
+                    piercing: loaded.then_some(Strip::PAPER),
                 }
             },
         )

@@ -1,13 +1,13 @@
 //! The strip: half pierced it is met again, pierced it counts once per stroke.
 
 use softstop::{
-    Crossing, CrossingKind, InitialConditions, PhaseKind, Piercing, Ratios, Scene, Simulation,
-    Start, Trajectory,
+    Crossing, CrossingKind, InitialConditions, PhaseKind, Ratios, Scene, Simulation, Start, Strip,
+    Trajectory,
 };
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{assert_near, loaded, piercing};
 
-fn machine(frequency: f64, clearance: f64, strip: Piercing) -> Scene {
+fn machine(frequency: f64, clearance: f64, strip: Strip) -> Scene {
     let ratios = Ratios {
         frequency,
         clearance,
@@ -28,7 +28,7 @@ fn passes(trajectory: &Trajectory, position: f64) -> Vec<&Crossing> {
 /// A weak stroke turns back in phase I; the next one meets the same force from the clearance on.
 #[test]
 fn a_half_pierced_strip_is_met_again() {
-    let scene = machine(0.3, 0.8, Piercing::PAPER);
+    let scene = machine(0.3, 0.8, Strip::PAPER);
     let start = Start::new(0.0, 0.5);
     let trajectory = scene.trajectory(start, 6).expect("bounded");
     let strokes = passes(&trajectory, scene.clearance);

@@ -123,7 +123,7 @@ impl TaylorStep {
         let mut segment = Self::linear_in_time(flow, hertz, from, start);
         segment.depth[0] = deflection;
         let bounds = [segment.depth, segment.velocity_series()].map(|series| majorant(&series));
-        let reach = segment.reach_in_time(flow, from);
+        let reach = segment.reach_under_polynomial_force(flow, from);
         segment.end_at(if hertz.stiffness > 0.0 {
             span_without_power_law(hertz, reach, |span| {
                 (value(&bounds[0], span), value(&bounds[1], span), span)

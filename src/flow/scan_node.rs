@@ -14,7 +14,7 @@ pub(crate) struct ScanWindow<'a> {
     pub bound: f64,
 }
 
-/// Most scan windows that are counted from one origin.
+/// Most windows that are counted from one origin node of a scan; then the node reached becomes the origin.
 const MAX_COUNTED_WINDOWS: u32 = 1 << 31;
 /// Scan windows over which nodes are advanced by rotation before one is evaluated afresh, against the growth of
 /// rounding.

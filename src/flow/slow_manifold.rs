@@ -47,9 +47,9 @@ pub(super) struct SlowManifold {
     pub answer: Series,
 }
 
-/// Derivatives of the contact force by velocity (damping) and by deflection (stiffness) along a motion, and the force
-/// itself, as series in time.
-struct ContactSlopes {
+/// The power-law force along a motion, and its derivatives by velocity (damping) and deflection (stiffness), those of the linear
+/// law added, as series in time.
+struct ForceAlongMotion {
     damping: Series,
     stiffness: Series,
     force: Series,
@@ -80,8 +80,8 @@ impl SlowEquation<'_> {
         near.then(|| self.manifold_with_derivatives(depth, span, decays))
     }
 
-    /// The slopes of the contact force along a motion with this series of its deflection.
-    fn slopes_along(&self, depth: &Series) -> ContactSlopes {
+    /// The force and its derivatives along a motion with this series of its deflection.
+    fn force_and_derivatives(&self, depth: &Series) -> ForceAlongMotion {
         let velocity = derivative(depth);
         let (kappa, lambda, n) = (
             self.hertz.factor(),
@@ -90,16 +90,16 @@ impl SlowEquation<'_> {
         );
         let w = power_series(depth, n);
         let steep = power_series(depth, n - 1.0);
-        let mut slopes = ContactSlopes {
+        let mut along_motion = ForceAlongMotion {
             damping: w.map(|w| kappa * lambda * w),
             stiffness: std::array::from_fn(|k| {
                 kappa * n * (steep[k] + lambda * convolve(&steep, &velocity, k))
             }),
             force: std::array::from_fn(|k| kappa * (w[k] + lambda * convolve(&w, &velocity, k))),
         };
-        slopes.damping[0] += self.twice_decay;
-        slopes.stiffness[0] += self.stiffness;
-        slopes
+        along_motion.damping[0] += self.twice_decay;
+        along_motion.stiffness[0] += self.stiffness;
+        along_motion
     }
 
     /// The series of the deflection on the slow manifold, all coefficients together by Newton's method, scaled by
@@ -111,9 +111,9 @@ impl SlowEquation<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..MAX_NEWTON_STEPS {
             budget::charge(budget::SLOW_MANIFOLD_STEP);
-            let slopes = self.slopes_along(&depth);
-            let matrix = residual_jacobian(&slopes, span, decays);
-            let residual = self.residual(&depth, &slopes, span, decays);
+            let along_motion = self.force_and_derivatives(&depth);
+            let matrix = residual_jacobian(&along_motion, span, decays);
+            let residual = self.residual(&depth, &along_motion, span, decays);
             let step = matrix.lu().solve(&residual)?;
             let mut size: f64 = 0.0;
             for k in 0..ORDER {
@@ -137,7 +137,7 @@ impl SlowEquation<'_> {
     fn residual(
         &self,
         depth: &Series,
-        slopes: &ContactSlopes,
+        along_motion: &ForceAlongMotion,
         span: f64,
         decays: bool,
     ) -> SVector<f64, ORDER> {
@@ -145,7 +145,7 @@ impl SlowEquation<'_> {
         let row = |k: usize| {
             let (first, second) = ((k + 1) as f64, (k + 2) as f64);
             let inertia = second * first * at(k + 2) + self.twice_decay * first * at(k + 1);
-            inertia + self.stiffness * depth[k] + slopes.force[k] - self.forcing[k]
+            inertia + self.stiffness * depth[k] + along_motion.force[k] - self.forcing[k]
         };
         SVector::from_fn(|index, _| match (decays, index) {
             (true, k) => row(k) * span.powi(k as i32),
@@ -156,8 +156,8 @@ impl SlowEquation<'_> {
 
     /// The motion on the slow manifold with this series of its deflection, and its derivatives.
     fn manifold_with_derivatives(&self, depth: Series, span: f64, decays: bool) -> SlowManifold {
-        let slopes = self.slopes_along(&depth);
-        let matrix = residual_jacobian(&slopes, span, decays).lu();
+        let along_motion = self.force_and_derivatives(&depth);
+        let matrix = residual_jacobian(&along_motion, span, decays).lu();
         let solve = |row: usize| -> Series {
             let mut unit = SVector::<f64, ORDER>::zeros();
             unit[row] = 1.0;
@@ -171,7 +171,7 @@ impl SlowEquation<'_> {
             (solve(0), solve(1))
         };
         // The slow part of (0, 1) is (1, s) / (s - f), with f + s = -damping.
-        let echo = 1.0 / (slopes.damping[0] + 2.0 * memory[1]);
+        let echo = 1.0 / (along_motion.damping[0] + 2.0 * memory[1]);
         // An answer from rest lacks the velocity that the slow one begins with.
         let lacks = echo * answer[1];
         for (answer, memory) in answer.iter_mut().zip(memory) {
@@ -189,7 +189,7 @@ impl SlowEquation<'_> {
 /// Derivative of the residual of the slow equation by the scaled coefficients of the deflection; unless the influence
 /// of the start `decays`, its first row keeps the deflection at the start.
 fn residual_jacobian(
-    slopes: &ContactSlopes,
+    along_motion: &ForceAlongMotion,
     span: f64,
     decays: bool,
 ) -> SMatrix<f64, ORDER, ORDER> {
@@ -199,10 +199,10 @@ fn residual_jacobian(
             entry += (j * (j - 1)) as f64;
         }
         if j >= 1 && j <= k + 1 {
-            entry += slopes.damping[k + 1 - j] * j as f64;
+            entry += along_motion.damping[k + 1 - j] * j as f64;
         }
         if j <= k {
-            entry += slopes.stiffness[k - j];
+            entry += along_motion.stiffness[k - j];
         }
         entry * span.powi(k as i32 - j as i32)
     };

@@ -28,7 +28,7 @@ impl TaylorStep {
             (from.position, from.velocity),
         );
         segment.low = low;
-        segment.end_at(segment.reach_in_time(flow, from));
+        segment.end_at(segment.reach_under_polynomial_force(flow, from));
         segment
     }
 
@@ -59,9 +59,9 @@ impl TaylorStep {
         segment
     }
 
-    /// Time in s over which the series of a step in time hold to rounding, and over which no power of the force
-    /// outgrows what the motion begins with: a crossing early in a step would drown in the rounding of its end.
-    pub(super) fn reach_in_time(&self, flow: &LinearLaw, from: &Departure) -> f64 {
+    /// Time in s over which the series of a step in time hold to rounding, and over which the terms that the external force's
+    /// powers of time bring stay below the leading three: a crossing early in a step would drown in the rounding of its end.
+    pub(super) fn reach_under_polynomial_force(&self, flow: &LinearLaw, from: &Departure) -> f64 {
         let reach = flow.reach;
         if from.forcing.is_linear() {
             return reach;

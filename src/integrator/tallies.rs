@@ -48,7 +48,7 @@ impl Observer for Tallies {
 }
 
 impl Tallies {
-    /// Work of the arc that is under way.
+    /// Work of the arc that is under way since its start, supplied and dissipated.
     pub fn work_under_way(&self, motion: &Motion) -> Work {
         work(&motion.arc(), self.mass, motion.elapsed())
     }

@@ -3,7 +3,7 @@
 use super::{LawCoefficients, PhaseKind, SpringEnergy};
 use crate::events::Guard;
 use crate::flow::PowerLaw;
-use crate::scene::{Piercing, Release, Scene, Slope, Stop, force_of, stiffness_from};
+use crate::scene::{Release, Scene, Slope, Stop, Strip, force_of, stiffness_from};
 
 /// The plan of one layer of positions.
 pub(super) struct LayerPlan {
@@ -62,7 +62,7 @@ pub(super) fn plan_layers(scene: &Scene, free: LawCoefficients, fed: bool) -> Ve
 }
 
 /// Phases I and II (Peterka 2003, eqs. 1-4); a layer without thickness does not exist.
-fn strip_layers(strip: Piercing, near: f64, touching: LawCoefficients) -> Vec<LayerPlan> {
+fn strip_layers(strip: Strip, near: f64, touching: LawCoefficients) -> Vec<LayerPlan> {
     let elastic = |stiffness: f64| LawCoefficients {
         stiffness: touching.stiffness + stiffness,
         force: stiffness * near,

@@ -138,11 +138,11 @@ impl PhaseBuilder<'_> {
         let wall = wall.map(|wall| {
             let (position, restitution) = (wall.position, wall.restitution);
             let beyond = Beyond::Wall { restitution };
-            let before = layers.last().copied();
+            let layer_in_front = layers.last().copied();
             let is_far_side = plans
                 .iter()
                 .any(|plan| plan.is_far_side && plan.from == position);
-            self.add_surface(position, before, beyond, is_far_side)
+            self.add_surface(position, layer_in_front, beyond, is_far_side)
         });
         Stack {
             layers: layers.into(),
@@ -150,7 +150,8 @@ impl PhaseBuilder<'_> {
         }
     }
 
-    fn add_layer(&mut self, plan: &LayerPlan, before: Option<Layer>) -> Layer {
+    /// Adds a layer as planned, its phases and the surface at which it begins, where the layer in front of it, if any, ends.
+    fn add_layer(&mut self, plan: &LayerPlan, layer_in_front: Option<Layer>) -> Layer {
         let store = StopEnergy {
             spring: plan.spring,
             hertz: plan.hertz,
@@ -159,7 +160,7 @@ impl PhaseBuilder<'_> {
         let inward = add(self, plan.forward);
         let outward = plan.backward.map_or(inward, |law| add(self, law));
         let beyond = Beyond::Phase(inward);
-        let surface = self.add_surface(plan.from, before, beyond, plan.is_far_side);
+        let surface = self.add_surface(plan.from, layer_in_front, beyond, plan.is_far_side);
         let falling = Guard::falling_to(plan.from);
         self.add_exit(outward, falling, Exit::Backward(surface));
         let (forward, backward) = match self.side < 0.0 {
@@ -187,28 +188,28 @@ impl PhaseBuilder<'_> {
         }
     }
 
-    /// Adds a surface and lets the phases before it end there.
+    /// Adds the surface at `position`, with what lies `beyond` it; the layer in front of it, if any, ends there.
     fn add_surface(
         &mut self,
         position: f64,
-        before: Option<Layer>,
+        layer_in_front: Option<Layer>,
         beyond: Beyond,
         is_far_side: bool,
     ) -> SurfaceId {
         let surface = SurfaceId(self.surfaces.len());
         self.surfaces.push(Surface {
             position: self.side * position,
-            before: before.map_or(PhaseId::FREE, Layer::outward_phase),
+            before: layer_in_front.map_or(PhaseId::FREE, Layer::outward_phase),
             beyond,
             beyond_unfed: None,
             side: self.side,
-            is_clearance: before.is_none(),
+            is_clearance: layer_in_front.is_none(),
             is_far_side,
         });
-        if let Some(before) = before {
-            let released = self.phases[before.inward_phase().index()].released;
+        if let Some(layer) = layer_in_front {
+            let released = self.phases[layer.inward_phase().index()].released;
             let guard = Guard::rising_to(position);
-            self.add_exit(before.inward_phase(), guard, Exit::Forward(surface));
+            self.add_exit(layer.inward_phase(), guard, Exit::Forward(surface));
             if let Some((released, _)) = released {
                 self.add_exit(released, guard, Exit::Forward(surface));
             }

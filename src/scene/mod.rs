@@ -5,6 +5,7 @@ mod parameter;
 mod ratios;
 mod scales;
 mod stop;
+mod strip;
 mod ties;
 mod units;
 mod validate;
@@ -14,7 +15,8 @@ pub use parameter::{Dimension, Parameter, ParameterInfo};
 pub use ratios::Ratios;
 pub use scales::{MIN_SCALE_STIFFNESS, Scales};
 pub(crate) use stop::stiffness_from;
-pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
+pub use stop::{Below, Release, RigidStop, Slope, Stop, Wall, force_of};
+pub use strip::Strip;
 pub use ties::Ties;
 pub(crate) use ties::{Quantity, Tie};
 pub use units::Units;
@@ -55,7 +57,7 @@ pub struct Scene {
     pub stop: Stop,
     /// The strip that is pierced ahead of the stop, if one is fed.
     #[serde(default)]
-    pub piercing: Option<Piercing>,
+    pub piercing: Option<Strip>,
     /// A rigid stop behind the stop, if there is one.
     #[serde(default)]
     pub rigid: Option<RigidStop>,
@@ -90,49 +92,6 @@ impl Excitation {
         let (sin, cos) = self.phase.sin_cos();
         sin.atan2(cos)
     }
-}
-
-/// The strip met from the clearance on (Peterka 2003, eqs. 1-4).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Piercing {
-    /// Stiffness k2 of the forming force in N/m, >= 0.
-    pub stiffness: f64,
-    /// Stiffness k3 of the dry friction in N/m, >= 0: its force is k3 (x - r) sign x'.
-    pub friction: f64,
-    /// Thickness s of the strip in m, >= 0: phase I is r < x < r + s.
-    pub thickness: f64,
-    /// Travel v in m, >= 0: phase II is r + s < x < r + s + v, the stop stands behind it.
-    pub travel: f64,
-}
-
-impl Piercing {
-    /// The paper's strip, in its ratios: k2/k1 = 21, k3/k1 = 23, sigma = 0.4, sigma + nu = 0.9.
-    pub const PAPER: Self = Self {
-        stiffness: 21.0,
-        friction: 23.0,
-        thickness: 0.4,
-        travel: 0.5,
-    };
-
-    /// Dry friction force in N of phase II while the mass moves on (eq. 2).
-    pub fn cut_force_forward(&self) -> f64 {
-        0.1 * self.thickness * (self.stiffness + self.friction)
-    }
-
-    /// Dry friction force in N of phase II while the mass moves back (eq. 3).
-    pub fn cut_force_backward(&self) -> f64 {
-        -0.05 * self.thickness * (self.stiffness + self.friction)
-    }
-}
-
-/// Where the mass can go no further.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wall {
-    /// Where it stands, in m.
-    pub position: f64,
-    /// Newton's coefficient of restitution there.
-    pub restitution: f64,
 }
 
 impl Scene {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Piercing, RigidStop, Scene, Stop};
+use super::{RigidStop, Scene, Stop, Strip};
 use crate::error::SceneError;
 
 /// Dimensionless parameters as in Peterka 2003, section 3: stiffness ratios in units of k1,
@@ -24,7 +24,7 @@ pub struct Ratios {
     pub preload: f64,
     /// The strip, or none for the unloaded regime: k2/k1, k3/k1, sigma = s k1 / F0, nu = v k1 / F0.
     #[serde(default)]
-    pub piercing: Option<Piercing>,
+    pub piercing: Option<Strip>,
     /// The rigid stop behind (phase IV), its travel epsilon = e k1 / F0.
     #[serde(default)]
     pub rigid: Option<RigidStop>,
@@ -48,7 +48,7 @@ impl Ratios {
     /// The paper's loaded regime at point B (eta = 1.15, rho = 10).
     pub const fn loaded() -> Self {
         let mut ratios = Self::unloaded();
-        ratios.piercing = Some(Piercing::PAPER);
+        ratios.piercing = Some(Strip::PAPER);
         ratios
     }
 

@@ -102,6 +102,15 @@ pub struct RigidStop {
     pub restitution: f64,
 }
 
+/// The rigid stop that a mass meets, and can go no further.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// Position in m.
+    pub position: f64,
+    /// Newton's coefficient of restitution R, 0 <= R <= 1.
+    pub restitution: f64,
+}
+
 /// A stop on the other side: it is met at x = -`clearance` on the way down, and its deflection is -x - `clearance`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(expecting = "a table")]

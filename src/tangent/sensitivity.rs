@@ -7,7 +7,7 @@ use crate::flow::Variation;
 use crate::integrator::{Arc, Crossing, CrossingKind, Motion, Observer, Simulation, Start};
 use crate::scene::Scene;
 
-/// A direction of change at the beginning of the last advance.
+/// A small change of state and external force at the beginning of the last advance: the direction of [`Sensitivity`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Perturbation {
     /// Change of the position, in m.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use softstop::{Excitation, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Excitation, Release, RigidStop, Scene, Slope, Start, Stop, Strip};
 
 use super::graze;
 use super::law::wall;
@@ -215,7 +215,7 @@ fn chain(dice: &mut Dice, loop_: bool) -> Stop {
     Stop::PiecewiseLinear { loading, unloading }
 }
 
-fn any_strip(dice: &mut Dice) -> Piercing {
+fn any_strip(dice: &mut Dice) -> Strip {
     let stiffness = if dice.once_in(8) {
         0.0
     } else {
@@ -231,7 +231,7 @@ fn any_strip(dice: &mut Dice) -> Piercing {
         1 => (dice.log(1e-2, 2.0), 0.0),
         _ => (dice.log(1e-2, 2.0), dice.log(1e-2, 2.0)),
     };
-    Piercing {
+    Strip {
         stiffness,
         friction,
         thickness,

@@ -2,7 +2,7 @@
 //! strip gives on the way forward and back.
 
 use softstop::internals::force_of;
-use softstop::{PhaseKind, Piercing, Release, Scene, Slope, Stop};
+use softstop::{PhaseKind, Release, Scene, Slope, Stop, Strip};
 
 /// F = `preload` + `stiffness` (x - `origin`), beside a damper that replaces that of the free mass.
 #[derive(Debug, Clone, Copy)]
@@ -177,7 +177,7 @@ fn strip_layers(scene: &Scene) -> Vec<Layer> {
     let Some(strip) = scene.piercing else {
         return Vec::new();
     };
-    let Piercing {
+    let Strip {
         stiffness: k2,
         friction: k3,
         thickness,

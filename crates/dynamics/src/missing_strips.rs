@@ -12,7 +12,7 @@ use crate::parallel;
 pub use crate::strokes::StrokeCount;
 use crate::strokes::StrokeObserver;
 use softstop::internals::Motion;
-use softstop::{CheckedScene, Instant, MotionError, Piercing, Scene};
+use softstop::{CheckedScene, Instant, MotionError, Scene, Strip};
 use softstop_lanes::LoweredMachine;
 
 /// Position of the stop while there is no strip.
@@ -32,7 +32,7 @@ impl StopWithoutStrip {
         let mut without = scene.clone();
         without.piercing = match self {
             Self::Near => None,
-            Self::Fixed => scene.piercing.map(|strip| Piercing {
+            Self::Fixed => scene.piercing.map(|strip| Strip {
                 stiffness: 0.0,
                 friction: 0.0,
                 ..strip

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
-use softstop::{Parameter, Piercing, Ratios, Scene};
+use softstop::{Parameter, Ratios, Scene, Strip};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::derivatives::{self, Border};
 use softstop_dynamics::nalgebra::Vector2;
@@ -36,7 +36,7 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
                 stiffness,
                 preload,
                 rigid: with.0.then_some(rigid),
-                piercing: with.1.then_some(Piercing::PAPER),
+                piercing: with.1.then_some(Strip::PAPER),
             };
             let (mass, stiffness, force) = scales;
             let units = units(mass, stiffness, force);

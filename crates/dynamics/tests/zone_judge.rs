@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
-use softstop::{Piercing, Ratios, Release, Scene, Slope, Start, Stop};
+use softstop::{Ratios, Release, Scene, Slope, Start, Stop, Strip};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{Loss, StableRange, stable_ranges};
 use softstop_dynamics::{BranchPoint, Orbit};
@@ -31,9 +31,9 @@ const NEAR: f64 = 0.02;
 const WEAK: f64 = 1e-3;
 
 /// A law of a stop: four times in eight the paper's, with a strip or without.
-fn stops() -> impl Strategy<Value = (Option<Stop>, Option<Piercing>)> {
+fn stops() -> impl Strategy<Value = (Option<Stop>, Option<Strip>)> {
     let strip = (0.0..30.0f64, 0.0..30.0f64, 0.05..1.0f64, 0.0..1.0f64);
-    let strip = strip.prop_map(|(stiffness, friction, thickness, travel)| Piercing {
+    let strip = strip.prop_map(|(stiffness, friction, thickness, travel)| Strip {
         stiffness,
         friction,
         thickness,

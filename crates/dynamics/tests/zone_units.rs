@@ -1,7 +1,7 @@
 //! A machine in SI has the zone of the same machine in ratios, whatever its stop, and the same motions.
 
 use proptest::prelude::*;
-use softstop::{Machine, Piercing, Ratios, Scene, Start, Stop, UnitSystem};
+use softstop::{Machine, Ratios, Scene, Start, Stop, Strip, UnitSystem};
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::monitor::unmonitored;
@@ -14,7 +14,7 @@ fn machine(clearance: f64, damping: f64, which: usize) -> Scene {
     let ratios = Ratios {
         clearance,
         damping,
-        piercing: (which == 5).then_some(Piercing::PAPER),
+        piercing: (which == 5).then_some(Strip::PAPER),
         ..Ratios::unloaded()
     };
     let mut scene = ratios.scene().expect("valid");

@@ -3,7 +3,7 @@
 use softstop_console::machine::PaperMachine;
 use softstop_lab::throughput::batch::Range;
 use softstop_lab::throughput::measure::narrower;
-use softstop_lanes::{Instructions, run_with};
+use softstop_lanes::{InstructionLimit, run_with};
 use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -21,12 +21,12 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
     }
     assert_eq!(report["scene"]["motions"], 1000);
     assert_eq!(report["scene"]["periods"], 200);
-    let registers = Instructions::Widest.registers();
+    let registers = InstructionLimit::Widest.registers();
     assert_eq!(report["batch"]["lanes"], registers.lanes);
     assert_eq!(report["batch"]["instructions"], registers.name);
     let mut engines = vec!["safe", "scalar", "batch", "each_impact"];
     for set in narrower() {
-        let name = if set == Instructions::Avx2 {
+        let name = if set == InstructionLimit::Avx2 {
             "avx2"
         } else {
             "portable"
@@ -53,7 +53,7 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
 #[test]
 fn the_table_is_for_people() {
     let text = PROGRAM.text(&["loaded", "--repeats", "1", "--zones", "4"]);
-    let name = Instructions::Widest.registers().name;
+    let name = InstructionLimit::Widest.registers().name;
     assert!(text.contains("scalar") && text.contains(&format!("batch, {name}")));
     assert!(text.contains("The loaded machine at 1000 frequencies"));
 }
@@ -71,9 +71,9 @@ fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
     let safe = batch.safe()?.impacts;
     assert!(safe > 100);
     for set in [
-        Instructions::Widest,
-        Instructions::Avx2,
-        Instructions::Portable,
+        InstructionLimit::Widest,
+        InstructionLimit::Avx2,
+        InstructionLimit::Portable,
     ] {
         let count = batch.follow(|it, jobs| run_with(set, it, jobs, &mut ()))?;
         assert_eq!(count.impacts, safe);

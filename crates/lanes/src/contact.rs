@@ -24,8 +24,9 @@ use super::move_lanes::LaneEnd;
 const MIN_EIGHTHS_IN_CONTACT: usize = 7;
 /// Most rounds over all phases for which lanes in contact wait for others.
 const MAX_ROUNDS_WAITED: usize = 6;
-/// Most Taylor steps with which a contact is followed in one round over all phases.
-const MAX_STEPS: usize = 64;
+/// Most Taylor steps with which a contact is followed in one round over all phases; contacts of which these steps cover less than
+/// a sixteenth of a drive period go to the safe engine.
+const MAX_STEPS_PER_ROUND: usize = 64;
 
 /// Where the lanes have come to in one power-law contact, and which of them go on, have left contact, have arrived at the end of
 /// their time, or are left to the safe engine.
@@ -99,12 +100,11 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             doubtful: active.and_not(moves),
         };
         let mut steps = 0;
-        while path.going.any() && steps < MAX_STEPS {
+        while path.going.any() && steps < MAX_STEPS_PER_ROUND {
             power.expand(law, frequency, &path.place);
             path.step(law, power, due, period * due.like(1e-12));
             steps += 1;
         }
-        // Contacts of which MAX_STEPS cover less than a sixteenth of a drive period are left to the safe engine.
         let slow = path.going & path.place.time.below(period * due.like(1.0 / 16.0));
         let (left, arrived) = (path.left, path.arrived);
         let doubtful = path.doubtful | slow;

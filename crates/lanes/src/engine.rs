@@ -26,9 +26,10 @@
 use pulp::Simd;
 
 use super::contact_series::ContactSeries;
+use super::job::{Job, Outcome, Task};
 use super::lanes::{Lanes, Mask};
 use super::law::Laws;
-use super::machine::{Job, LoweredMachine, Outcome, Task};
+use super::lowered_machine::LoweredMachine;
 use super::phase_order::{PhaseGraph, phase_order};
 use super::returns::ReturnHistory;
 use super::safe_engine::{self, Resumed, SafeStart};

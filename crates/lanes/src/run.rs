@@ -5,7 +5,9 @@ use std::ops::{ControlFlow, Range};
 use rayon::prelude::*;
 
 use super::dispatch;
-use super::machine::{Instructions, Job, LoweredMachine, Outcome};
+use super::dispatch::InstructionLimit;
+use super::job::{Job, Outcome};
+use super::lowered_machine::LoweredMachine;
 use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 
@@ -22,12 +24,12 @@ pub fn run(
     jobs: &[Job],
     watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
-    run_with(Instructions::Widest, machines, jobs, watch)
+    run_with(InstructionLimit::Widest, machines, jobs, watch)
 }
 
 /// Follows the motions of all jobs on this thread with the instruction set chosen.
 pub fn run_with(
-    instructions: Instructions,
+    instructions: InstructionLimit,
     machines: &[LoweredMachine],
     jobs: &[Job],
     watch: &mut impl BatchObserver,
@@ -55,7 +57,7 @@ pub fn run_one_by_one(
 /// # Panics
 /// If a job names a machine that is not there.
 pub fn run_parallel<W: BatchObserver + Send>(
-    instructions: Instructions,
+    instructions: InstructionLimit,
     machines: &[LoweredMachine],
     jobs: &[Job],
     watch: impl Fn(Range<usize>) -> W + Sync,

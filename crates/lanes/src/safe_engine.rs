@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::machine::{LoweredMachine, Outcome};
+use super::job::Outcome;
+use super::lowered_machine::LoweredMachine;
 use super::observer::ObserverHandle;
 use softstop::internals::{Mode, Motion};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};

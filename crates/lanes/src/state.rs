@@ -2,8 +2,9 @@
 
 use pulp::Simd;
 
+use super::job::Outcome;
 use super::lanes::{Lanes, Mask, Pair};
-use super::machine::{LoweredMachine, Outcome};
+use super::lowered_machine::LoweredMachine;
 use super::returns::PostImpactState;
 use super::sine_cosine::cos_sin;
 use softstop::Start;

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use softstop::{Clock, Crossing, Observer, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_lanes::{
-    BatchObserver, Instructions, Job, LoweredMachine, Outcome, run, run_one_by_one, run_with,
+    BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run, run_one_by_one, run_with,
 };
 use softstop_testing::{Meets, assert_near, kelvin_voigt, preloaded, rigid_stop};
 
@@ -213,7 +213,7 @@ fn compare(batch: Batch) -> f64 {
 fn instructions_that_round_otherwise_give_nearly_the_same_motions() {
     let Batch { machines, jobs, .. } = batch(600);
     let widest = run(&machines, &jobs, &mut ());
-    let others = run_with(Instructions::Portable, &machines, &jobs, &mut ());
+    let others = run_with(InstructionLimit::Portable, &machines, &jobs, &mut ());
     let agree = widest
         .iter()
         .zip(&others)
@@ -228,7 +228,7 @@ fn a_motion_does_not_depend_on_its_neighbours() {
     let Batch { machines, jobs, .. } = leaps::long(600);
     let widest = run(&machines, &jobs, &mut ());
     assert_eq!(
-        run_with(Instructions::Avx2, &machines, &jobs, &mut ()),
+        run_with(InstructionLimit::Avx2, &machines, &jobs, &mut ()),
         widest
     );
     assert_eq!(run_one_by_one(&machines, &jobs, &mut ()), widest);

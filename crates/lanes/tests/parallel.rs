@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use rayon::ThreadPoolBuilder;
 use softstop::{Ratios, Scene, Start};
 use softstop_lanes::{
-    BatchObserver, Instructions, Job, LoweredMachine, Outcome, run, run_parallel,
+    BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run, run_parallel,
 };
 use softstop_testing::tolerance::SOLVED;
 use softstop_testing::{assert_near, hertz};
@@ -48,7 +48,7 @@ fn on(threads: usize) -> (Vec<Outcome>, Vec<(usize, f64)>) {
     let (machines, jobs) = fleet();
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let (outcomes, watches) = pool.expect("threads").install(|| {
-        run_parallel(Instructions::Widest, &machines, &jobs, |range| {
+        run_parallel(InstructionLimit::Widest, &machines, &jobs, |range| {
             assert!(!range.is_empty() && range.end <= JOBS);
             Heard(Vec::new())
         })

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use rounding::{ROUNDING, Reference, faces, follow};
 use serde_json::json;
 use softstop::{Ratios, Scene, Start, Stop};
-use softstop_lanes::{Instructions, Job, LoweredMachine, Outcome, run_with};
+use softstop_lanes::{InstructionLimit, Job, LoweredMachine, Outcome, run_with};
 
 /// Motions that are drawn and run together.
 const PART: u64 = 256;
@@ -135,7 +135,7 @@ fn in_lanes(
         periods: periods(machine),
     };
     let jobs: Vec<Job> = motions.iter().enumerate().map(job).collect();
-    let outcomes = run_with(Instructions::Widest, machines, &jobs, &mut ());
+    let outcomes = run_with(InstructionLimit::Widest, machines, &jobs, &mut ());
     assert!(outcomes.iter().all(|outcome| outcome.error.is_none()));
     outcomes
 }

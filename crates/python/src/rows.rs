@@ -9,7 +9,7 @@ use softstop::{Machine as Stated, MotionError, Parameter, Scene, Start};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
-use softstop_lanes::{BatchObserver, Instructions, Job, LoweredMachine, Outcome, run_parallel};
+use softstop_lanes::{BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run_parallel};
 
 use crate::errors::{MachineError, of_failure, of_machine, of_motion, of_scene};
 use crate::machine::Machine;
@@ -114,7 +114,7 @@ impl<'a> Rows<'a> {
                 progress.more(part.len() as u64);
                 watch(first)
             };
-            let done = run_parallel(Instructions::Widest, &machines, &jobs, watch);
+            let done = run_parallel(InstructionLimit::Widest, &machines, &jobs, watch);
             outcomes.extend(done.0);
             watches.extend(done.1);
             go_on()?;

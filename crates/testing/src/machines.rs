@@ -1,7 +1,7 @@
 //! Random machines with every kind of stop.
 
 use proptest::prelude::*;
-use softstop::{Below, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Below, Release, RigidStop, Scene, Slope, Start, Stop, Strip};
 
 fn release() -> impl Strategy<Value = Release> {
     prop_oneof![Just(Release::Clearance), Just(Release::ZeroForce)]
@@ -50,9 +50,9 @@ pub fn stops() -> impl Strategy<Value = Stop> {
     ]
 }
 
-fn strips() -> impl Strategy<Value = Option<Piercing>> {
+fn strips() -> impl Strategy<Value = Option<Strip>> {
     let strip = (0.0..30.0f64, 0.0..30.0f64, 0.05..0.5f64, 0.0..0.6f64).prop_map(
-        |(stiffness, friction, thickness, travel)| Piercing {
+        |(stiffness, friction, thickness, travel)| Strip {
             stiffness,
             friction,
             thickness,

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use serde_json::Value;
-use softstop::{Piercing, Ratios};
+use softstop::{Ratios, Strip};
 
 /// Clearance, and velocity and frequency at the fold of z = 1, unloaded, k4/k1 = 7 (from an independent exact
 /// integrator).
@@ -71,7 +71,7 @@ pub fn ratios(parameters: &Value) -> Ratios {
         stiffness: number(parameters, "stiffness"),
         preload: number(parameters, "preload"),
         rigid: None,
-        piercing: (parameters["regime"] == "loaded").then(|| Piercing {
+        piercing: (parameters["regime"] == "loaded").then(|| Strip {
             stiffness: number(parameters, "k2"),
             friction: number(parameters, "k3"),
             thickness: number(parameters, "sigma"),

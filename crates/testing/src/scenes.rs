@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use softstop::{
-    Clock, Excitation, Instant, Machine, Piercing, Ratios, Release, RigidStop, Scene, Slope, Stop,
+    Clock, Excitation, Instant, Machine, Ratios, Release, RigidStop, Scene, Slope, Stop, Strip,
     Units,
 };
 
@@ -68,8 +68,8 @@ pub const fn slope(from: f64, stiffness: f64) -> Slope {
 }
 
 /// A strip: k2 and k3 in N/m, thickness and travel in m.
-pub const fn piercing(stiffness: f64, friction: f64, thickness: f64, travel: f64) -> Piercing {
-    Piercing {
+pub const fn piercing(stiffness: f64, friction: f64, thickness: f64, travel: f64) -> Strip {
+    Strip {
         stiffness,
         friction,
         thickness,
@@ -136,7 +136,7 @@ pub fn scene(value: &Value) -> Scene {
         },
         clearance: number(value, "clearance"),
         contact_damping: number(value, "contact_damping"),
-        piercing: given("strip").map(|strip| Piercing {
+        piercing: given("strip").map(|strip| Strip {
             stiffness: number(strip, "stiffness"),
             friction: number(strip, "friction"),
             thickness: number(strip, "thickness"),

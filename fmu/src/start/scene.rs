@@ -1,8 +1,8 @@
 //! Start values and scenes: the one from the other, both ways.
 
 use softstop::{
-    Below, MotionError, Piercing, Release, RigidStop, Scene, SceneError, Simulation, Slope, Start,
-    Stop,
+    Below, MotionError, Release, RigidStop, Scene, SceneError, Simulation, Slope, Start, Stop,
+    Strip,
 };
 use softstop_fmi::variable::{Access, Slot};
 use thiserror::Error;
@@ -206,7 +206,7 @@ impl StartValues {
                 travel: 0.0,
                 restitution: 0.0,
             }),
-            piercing: has_strip.then_some(Piercing::PAPER),
+            piercing: has_strip.then_some(Strip::PAPER),
             below: (below != Stop::None).then(|| {
                 Box::new(Below {
                     clearance: 0.0,

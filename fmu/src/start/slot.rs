@@ -2,7 +2,7 @@
 #![expect(missing_docs, reason = "each is described in the table of variables")]
 
 use softstop::internals::samples::LOADED;
-use softstop::{Parameter, Piercing, Ratios};
+use softstop::{Parameter, Ratios, Strip};
 use softstop_fmi::variable::Slot;
 
 use crate::units::number;
@@ -12,7 +12,7 @@ pub const SLOPES: usize = 8;
 
 /// The loaded machine with m = 1 kg, k1 = 1 N/m and F0 = 1 N, so that SI units and the paper's ratios coincide.
 const RATIOS: Ratios = LOADED.ratios;
-const STRIP: Piercing = RATIOS.piercing.expect("the loaded machine has a strip");
+const STRIP: Strip = RATIOS.piercing.expect("the loaded machine has a strip");
 
 macro_rules! slots {
     ($($name:ident $([$length:expr])? = $value:expr $(=> $($parameter:ident),+)?;)*) => {

@@ -66,7 +66,7 @@ impl Continuation<'_> {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
             found.push(SpecialPoint { kind, point });
         }
-        let (touches, _) = self.grazings_of_nodes((from, to), CORNER_REACH, |_| false)?;
+        let (touches, _) = self.grazings_near_step((from, to), CORNER_REACH, |_| false)?;
         found.extend(touches.into_iter().map(|(_, special)| special));
         Ok(found)
     }

@@ -130,7 +130,7 @@ impl Observer for LastArc {
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector2;
-    use softstop::{Clock, Piercing, Ratios};
+    use softstop::{Clock, Ratios, Strip};
 
     use super::LastArc;
 
@@ -139,10 +139,10 @@ mod tests {
     #[test]
     fn a_strip_right_before_the_stop_cuts() {
         let mut scene = Ratios::loaded().at_frequency(1.0).scene().expect("valid");
-        scene.piercing = Some(Piercing {
+        scene.piercing = Some(Strip {
             thickness: 1e-6,
             travel: 0.0,
-            ..Piercing::PAPER
+            ..Strip::PAPER
         });
         (scene.excitation.amplitude, scene.damping) = (0.0, 0.0);
         scene.contact_damping = 0.0;

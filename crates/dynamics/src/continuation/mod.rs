@@ -43,6 +43,7 @@ mod equations;
 mod family;
 mod follow_points;
 mod grazing_test;
+mod grazings_near_step;
 mod half_branch;
 mod impact_section_orbit;
 mod impact_section_system;

@@ -56,7 +56,8 @@ pub(super) enum Accuracy {
     FixedParameter,
 }
 
-/// Corrects a guess by Newton's method with slopes of a place nearby as long as they serve; leaves the last.
+/// Corrects a guess by Newton's method as [`correct`], with `columns` of the Jacobian of a place nearby as long as they serve;
+/// leaves in `columns` the last Jacobian used.
 pub(super) fn correct_with_columns<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,

@@ -61,7 +61,7 @@ impl Continuation<'_> {
     }
 
     /// The point between two nodes at a value of the parameter.
-    fn parameter_of_nodes(
+    fn point_at_parameter_on_step(
         &self,
         ends: StepEnds<'_, PeriodMap>,
         parameter: f64,
@@ -90,7 +90,7 @@ impl Continuation<'_> {
             }
         }
         let located = self.find_at_clear_section(from, to, |continuation, ends| {
-            continuation.parameter_of_nodes(ends, parameter)
+            continuation.point_at_parameter_on_step(ends, parameter)
         });
         match located {
             Ok(point) if (point.parameter - parameter).abs() <= ROUNDING * parameter.abs() => {

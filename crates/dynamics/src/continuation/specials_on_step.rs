@@ -2,9 +2,8 @@
 
 use std::cell::RefCell;
 
-use super::chord_and_cubic::{CurveCubic, along_chord};
+use super::chord_and_cubic::CurveCubic;
 use super::equations::{CurveNode, Equations, StepEnds};
-use super::grazing_test::GrazingTest;
 use super::locate_zero::locate_zero;
 use super::period_map::PeriodMap;
 use super::{
@@ -132,7 +131,7 @@ impl Continuation<'_> {
                 && touches <= 1 + usize::from(graze.is_symmetric)
                 && graze.crossings == a.min(b)
         };
-        let (found, is_whole) = self.grazings_of_nodes((from, to), 0.0, is_whole)?;
+        let (found, is_whole) = self.grazings_near_step((from, to), 0.0, is_whole)?;
         let least = (4.0 * f64::EPSILON * to.at.norm()).max(self.settings.smallest_step);
         if is_whole || before == after || (&to.at - &from.at).norm() < least {
             return Ok(found);
@@ -147,50 +146,6 @@ impl Continuation<'_> {
             grazes.extend(shares);
         }
         Ok(grazes)
-    }
-
-    /// The grazing orbits that Newton's method reaches from either of two nodes, between them or within as many of their distances
-    /// beyond: the one that accounts for all crossings by which they differ, and true, or the first of each face, and false.
-    pub(super) fn grazings_of_nodes(
-        &self,
-        (from, to): StepEnds<'_, PeriodMap>,
-        beyond: f64,
-        is_whole: impl Fn(&GrazingTouch) -> bool,
-    ) -> Result<(Vec<(f64, SpecialPoint)>, bool), OrbitError> {
-        let way = &to.at - &from.at;
-        let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
-        let mut faces = Vec::new();
-        for node in [from, to] {
-            for special in GrazingTest::of_node(&self.shooting, node).grazing_orbits(&self.shooting)
-            {
-                let SpecialKind::Grazing(mut graze) = special.kind else {
-                    continue;
-                };
-                let at = self.unknowns_of(&special.point)?;
-                let (share, off) = along_chord((&from.at, &way), &at);
-                if !(-beyond..=1.0 + beyond).contains(&share) || off > beyond.max(1.0) * way.norm()
-                {
-                    continue;
-                }
-                graze.dies = from.here.point.impacts.len() > graze.impacts;
-                let special = SpecialPoint {
-                    kind: SpecialKind::Grazing(graze),
-                    ..special.clone()
-                };
-                if is_whole(&graze) {
-                    return Ok((vec![(share, special)], true));
-                }
-                if !faces.contains(&graze.face) {
-                    faces.push(graze.face);
-                    found.push((share, special));
-                }
-                // Past a corner the steps that follow find the others.
-                if beyond > 0.0 {
-                    break;
-                }
-            }
-        }
-        Ok((found, false))
     }
 }
 

@@ -29,9 +29,9 @@ impl ImpactPattern {
     /// The pattern of impacts, and of complete chatter that ends at `rests`, within `periods` of `period` seconds each.
     pub fn new(impacts: &[Instant], rests: &[Instant], periods: u64, period: f64) -> Self {
         let all: Vec<Instant> = [impacts, rests].concat();
-        let cut = longest_gap_middle(&all, period);
+        let separation = period_separation(&all, period);
         let cycle = |instant: &Instant| {
-            let early = u64::from(instant.offset < cut);
+            let early = u64::from(instant.offset < separation);
             ((instant.cycles as u64 + periods - early) % periods) as usize
         };
         let mut counts = vec![ImpactCount::Finite(0); periods as usize];
@@ -59,8 +59,9 @@ impl ImpactPattern {
     }
 }
 
-/// Seconds into the drive period at which a pattern is cut: in the middle of the longest time without impacts.
-fn longest_gap_middle(instants: &[Instant], period: f64) -> f64 {
+/// Offset in s into the drive period at which periods are separated when impacts are counted per period: the middle of the longest
+/// gap of all offsets folded into one period.
+fn period_separation(instants: &[Instant], period: f64) -> f64 {
     let mut offsets: Vec<f64> = instants.iter().map(|instant| instant.offset).collect();
     offsets.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (offsets.first(), offsets.last()) else {
@@ -69,8 +70,12 @@ fn longest_gap_middle(instants: &[Instant], period: f64) -> f64 {
     let around = (first + period - last, *last);
     let gaps = offsets.windows(2).map(|pair| (pair[1] - pair[0], pair[0]));
     let (gap, from) = gaps.fold(around, |best, gap| if gap.0 > best.0 { gap } else { best });
-    let cut = from + 0.5 * gap;
-    if cut < period { cut } else { cut - period }
+    let middle = from + 0.5 * gap;
+    if middle < period {
+        middle
+    } else {
+        middle - period
+    }
 }
 
 /// The largest of all rotations of a list of counts.

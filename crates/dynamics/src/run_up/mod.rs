@@ -229,7 +229,7 @@ fn try_way(
         Way::SwitchedOn => {
             try_switching_on(orbit, basin_test, (settings, angles), monitor).map(Some)
         }
-        _ => try_slow_change(orbit, basin_test, (settings, way), monitor),
+        _ => try_slow_way(orbit, basin_test, (settings, way), monitor),
     }
 }
 
@@ -291,8 +291,9 @@ fn middle_of_longest_row(circle: &[bool]) -> Option<f64> {
     (length > 0).then_some(first as f64 + 0.5 * (length as f64 - 1.0))
 }
 
-/// Tries to run up by a slow change of one parameter; none if the machine has no such way.
-fn try_slow_change(
+/// Runs up from rest by slowly changing the parameter of `way` to its working value, and tests whether the end lies in the basin
+/// of the orbit; none if the machine lacks that parameter, or it follows others.
+fn try_slow_way(
     orbit: &Orbit,
     basin_test: &BasinTest,
     (settings, way): (&RunUpSettings, Way),

@@ -11,7 +11,8 @@ use crate::parallel;
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene};
 
-/// Number of frequencies besides g0 at which single-impact motions are searched to begin a zone with.
+/// Number of frequencies besides the grazing frequency g0 of the impact-less motion at which single-impact motions are searched
+/// to begin a zone with.
 const START_FREQUENCIES: usize = 6;
 
 /// The single-impact zones of some scenes: ranges of stable z = 1; the frequency of their drives plays no part. Each reaches both
@@ -75,7 +76,8 @@ fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-/// The frequencies at which single-impact motions of a scene are searched: g0, and some evenly spaced in ratio between two.
+/// The frequencies in rad/s at which single-impact motions of a scene are searched: the upper grazing frequency g0 of the
+/// impact-less motion, and some evenly spaced in ratio in the range `between`, clipped to the followed range.
 fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     let rate = scene.scales().rate;
     let (low, high) = (

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use softstop_lanes::Instructions;
+use softstop_lanes::InstructionLimit;
 
 use super::batch::Count;
 use softstop_console::failure::Failure;
@@ -41,12 +41,12 @@ impl Timing {
 }
 
 /// The instruction sets narrower than the widest that this processor has.
-pub fn narrower() -> Vec<Instructions> {
-    let widest = Instructions::Widest.registers();
-    let portable = Instructions::Portable.registers();
-    let mut sets = vec![Instructions::Avx2, Instructions::Portable];
+pub fn narrower() -> Vec<InstructionLimit> {
+    let widest = InstructionLimit::Widest.registers();
+    let portable = InstructionLimit::Portable.registers();
+    let mut sets = vec![InstructionLimit::Avx2, InstructionLimit::Portable];
     sets.retain(|set| set.registers() != widest);
-    sets.retain(|set| *set == Instructions::Portable || set.registers() != portable);
+    sets.retain(|set| *set == InstructionLimit::Portable || set.registers() != portable);
     sets
 }
 

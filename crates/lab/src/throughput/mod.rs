@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::Args;
 use softstop::MotionError;
-use softstop_lanes::{Instructions, run_one_by_one, run_with};
+use softstop_lanes::{InstructionLimit, run_one_by_one, run_with};
 
 use batch::{Count, EachImpact, RANGE, Range};
 use measure::{ROUNDS, Way};
@@ -43,7 +43,7 @@ Examples:
 The engines take turns, each round a measurement of each; a round ahead of them
 is not counted. Lowering the machines is part of the time.";
 
-const WIDEST: Instructions = Instructions::Widest;
+const WIDEST: InstructionLimit = InstructionLimit::Widest;
 
 /// Arguments of `softstop-lab throughput`.
 #[derive(Debug, Args)]
@@ -89,9 +89,9 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let lanes = |set| way(move || batch.follow(|it, jobs| run_with(set, it, jobs, &mut ())));
     let each = || batch.follow(|it, jobs| run_with(WIDEST, it, jobs, &mut EachImpact));
     let engine = |names, lanes, way| Engine { names, lanes, way };
-    let of_set = |set: Instructions| Some((set.registers().lanes, set));
+    let of_set = |set: InstructionLimit| Some((set.registers().lanes, set));
     let scalar = || batch.follow(|it, jobs| run_one_by_one(it, jobs, &mut ()));
-    let one_lane = Some((1, Instructions::Avx2));
+    let one_lane = Some((1, InstructionLimit::Avx2));
     let mut engines = vec![
         engine(["safe"; 2], None, way(|| batch.safe())),
         engine(["scalar"; 2], one_lane, way(scalar)),
@@ -100,7 +100,7 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     ];
     engines.extend(measure::narrower().into_iter().map(|set| {
         let key = match set {
-            Instructions::Avx2 => "avx2",
+            InstructionLimit::Avx2 => "avx2",
             _ => "portable",
         };
         engine([key, "batch"], of_set(set), lanes(set))

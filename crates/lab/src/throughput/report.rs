@@ -1,7 +1,7 @@
 //! The report of `throughput`, for programs and for people.
 
 use serde_json::json;
-use softstop_lanes::Instructions;
+use softstop_lanes::InstructionLimit;
 
 use super::batch::Range;
 use super::measure::{ROUNDS, Timing, Way};
@@ -18,7 +18,7 @@ pub(super) struct Engine<'a> {
     /// Its name in JSON, and for people.
     pub names: [&'static str; 2],
     /// Motions in lock-step and the instruction set, if it is one of lanes.
-    pub lanes: Option<(usize, Instructions)>,
+    pub lanes: Option<(usize, InstructionLimit)>,
     /// How it goes through the motions.
     pub way: Way<'a>,
 }

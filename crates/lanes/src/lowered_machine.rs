@@ -1,10 +1,9 @@
-//! Machines made ready for the lanes, the jobs that these are given, their outcomes, and the instruction set that runs them.
+//! Machines made ready for the lanes.
 
 use super::bounce_trains::BounceTrains;
 use super::law::PhaseConstants;
-use super::observer::ObserverHandle;
 use super::phase_order::{MAX_PHASES, PhaseGraph};
-use softstop::{CheckedScene, MotionError, Start};
+use softstop::CheckedScene;
 
 /// A machine whose phases are made ready for the lanes, once for any number of motions.
 #[derive(Debug, Clone)]
@@ -57,52 +56,4 @@ impl LoweredMachine {
             free.low + free.ambiguity < position && position < free.high - free.ambiguity
         })
     }
-}
-
-/// A motion to follow, from drive period 0 on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Job {
-    /// Which of the machines.
-    pub machine: usize,
-    /// State at time 0.
-    pub start: Start,
-    /// Drive periods to follow it.
-    pub periods: u64,
-}
-
-/// End and counts of the motion of a job.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// State at the end.
-    pub end: Start,
-    /// Impacts on the way.
-    pub impacts: u64,
-    /// Crossings of all faces on the way: of the stop, the strip, corners, the wall, and reversals that change the law.
-    pub crossings: u64,
-    /// Drive periods that the safe engine followed, in part or whole.
-    pub handed_over: u64,
-    /// Drive periods that were leapt over, since nothing happens in them or each is like the one before.
-    pub leapt: u64,
-    /// Why it ended early, if it did.
-    pub error: Option<MotionError>,
-}
-
-/// The instruction set that the lanes are computed with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Instructions {
-    /// The widest that the processor has.
-    Widest,
-    /// At most 256-bit registers.
-    Avx2,
-    /// No vector instructions but those that every processor of its kind has.
-    Portable,
-}
-
-/// The jobs of a batch, the machines that they name, and the observer of their motions.
-pub(super) struct Task<'a> {
-    pub machines: &'a [LoweredMachine],
-    pub jobs: &'a [Job],
-    pub watch: ObserverHandle<'a>,
-    /// Most lanes to use.
-    pub at_once: usize,
 }
