@@ -40,8 +40,8 @@ mod flow;
 mod integrator;
 #[doc(hidden)]
 pub mod internals;
+mod largest_value;
 mod machine;
-mod peak;
 mod phases;
 mod root;
 mod scene;

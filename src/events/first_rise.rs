@@ -6,7 +6,7 @@
 
 use super::guard::Guard;
 use crate::budget;
-use crate::flow::{DEGREE, evaluate};
+use crate::flow::{DEGREE, value_and_rate};
 use crate::root::bracketed_newton;
 
 /// A guard as a polynomial on [0, span], with a bound on its fourth derivative and its rounding.
@@ -87,7 +87,7 @@ impl GuardPolynomial<'_> {
             (right.at, sign * right.rate),
             None,
             |s| {
-                let (rate, curvature) = evaluate(&derivative, s);
+                let (rate, curvature) = value_and_rate(&derivative, s);
                 (sign * rate, sign * curvature)
             },
         );
@@ -109,7 +109,7 @@ impl GuardPolynomial<'_> {
         }
         let guess = guess_rise(low, high);
         bracketed_newton((low.at, low.value), (high.at, high.value), guess, |s| {
-            evaluate(self.coefficients, s)
+            value_and_rate(self.coefficients, s)
         })
     }
 
@@ -123,7 +123,7 @@ impl GuardPolynomial<'_> {
 
     /// The guard polynomial and its derivative at a place.
     pub fn point_at(&self, at: f64) -> GuardPoint {
-        let (value, rate) = evaluate(self.coefficients, at);
+        let (value, rate) = value_and_rate(self.coefficients, at);
         GuardPoint { at, value, rate }
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn locate_single_rise(
             let mut further = near.position_series();
             let rate = std::mem::take(&mut further[1]);
             further[0] = 0.0;
-            let (way, rise) = value_and_rate(&further, rest);
+            let (way, rise) = quintic_value_and_rate(&further, rest);
             let position = from.0 + (change.0 + (rate * rest + way));
             let velocity = from.1 + (change.1 + rise);
             let elapsed = near.node.elapsed + rest;
@@ -123,7 +123,7 @@ fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
     if size.powi(4) <= lost {
         return Some(rest);
     }
-    let (value, rate) = value_and_rate(c, rest);
+    let (value, rate) = quintic_value_and_rate(c, rest);
     Some(rest - value / rate)
 }
 
@@ -132,7 +132,7 @@ fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
 fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
     let mut last = f64::INFINITY;
     for _ in 0..MAX_NEWTON_STEPS {
-        let (value, rate) = value_and_rate(series, at);
+        let (value, rate) = quintic_value_and_rate(series, at);
         let step = value / rate;
         at -= step;
         if !(rate > 0.0 && step.abs() < last) {
@@ -152,7 +152,7 @@ const MAX_NEWTON_STEPS: usize = 8;
 
 /// Value and first derivative at `s` of the series of a guard or a position, of degree 5.
 #[inline]
-fn value_and_rate(c: &[f64; 6], s: f64) -> (f64, f64) {
+fn quintic_value_and_rate(c: &[f64; 6], s: f64) -> (f64, f64) {
     let square = s * s;
     let value = (c[0] + c[1] * s) + square * ((c[2] + c[3] * s) + square * (c[4] + c[5] * s));
     let rate =

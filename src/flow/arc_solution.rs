@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
-use super::departure::ScanNode;
 use super::linear_law::MAX_DIGIT_LOSS;
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
-use super::taylor::linear_forcing_series;
+use super::scan_node::ScanNode;
+use super::taylor_polynomials::linear_forcing_series;
 use super::zero_state_responses::ZeroStateResponses;
 use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorPolynomials, TaylorStep};
 

@@ -1,7 +1,7 @@
 //! How far a truncated power series holds to rounding, by the sizes of its coefficients.
 
 use super::series::{Series, ZERO};
-use super::taylor::{DEGREE, RECIPROCALS};
+use super::taylor_polynomials::{DEGREE, RECIPROCALS};
 
 /// Binary logarithm of what the last terms of a series may amount to, relative to the first: 1/64 of rounding.
 pub(super) const TRUNCATION: f64 = -58.0;

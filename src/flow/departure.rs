@@ -1,4 +1,4 @@
-//! Where an arc departs from, and a state on it (scan node).
+//! Where an arc departs from.
 
 use serde::{Deserialize, Serialize};
 
@@ -35,21 +35,4 @@ impl Departure {
             acceleration: self.acceleration.map(|acceleration| -acceleration),
         }
     }
-}
-
-/// A state on an arc at one of the times between which a scan for crossings proceeds.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct ScanNode {
-    /// Time since departure in s.
-    pub elapsed: f64,
-    /// Position in m.
-    pub position: f64,
-    /// Velocity in m/s.
-    pub velocity: f64,
-    /// Where the drive stands.
-    pub drive: DriveAngle,
-    pub(super) deviation: (f64, f64),
-    /// Scan windows are counted from here, so that their times do not drift.
-    pub(super) origin: f64,
-    pub(super) windows: u32,
 }

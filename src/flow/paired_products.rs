@@ -2,7 +2,7 @@
 
 use wide::f64x2;
 
-use super::taylor::DEGREE;
+use super::taylor_polynomials::DEGREE;
 
 /// Number of coefficients that are multiplied in one row of a paired product.
 const ROW_LENGTH: usize = 4;

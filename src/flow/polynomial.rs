@@ -54,7 +54,7 @@ impl Polynomial {
     }
 
     /// The value p(t).
-    pub fn eval(&self, t: f64) -> f64 {
+    pub fn value_at(&self, t: f64) -> f64 {
         if self.is_linear() {
             self.value() + self.rate() * t
         } else {
@@ -66,7 +66,7 @@ impl Polynomial {
     /// their own rounding is added.
     pub fn shifted(&self, t: f64) -> Self {
         if self.is_linear() {
-            return Self::linear(self.eval(t), self.rate());
+            return Self::linear(self.value_at(t), self.rate());
         }
         Self::new(std::array::from_fn(|order| {
             taylor_sum(&self.derivatives[order..], t)
@@ -122,8 +122,11 @@ mod tests {
     fn values_are_those_of_the_written_out_sum() {
         // At t = 2, with 2^k / k! as a fraction over 315.
         let by_hand = 1.0 - 4.0 + 6.0 - 16.0 / 3.0 + 10.0 / 3.0 - 1.6 + 28.0 / 45.0 - 64.0 / 315.0;
-        assert!((CURVE.eval(2.0) - by_hand).abs() < 1e-14);
-        assert_eq!(Polynomial::linear(0.3, -0.7).eval(1.7), 0.3 + -0.7 * 1.7);
+        assert!((CURVE.value_at(2.0) - by_hand).abs() < 1e-14);
+        assert_eq!(
+            Polynomial::linear(0.3, -0.7).value_at(1.7),
+            0.3 + -0.7 * 1.7
+        );
     }
 
     #[test]
@@ -133,7 +136,7 @@ mod tests {
             assert!((a - b).abs() < 1e-13 * a.abs().max(1.0), "{a} {b}");
         }
         assert_eq!(CURVE.shifted(0.0), CURVE);
-        assert!((once.eval(0.5) - CURVE.eval(2.0)).abs() < 1e-14);
+        assert!((once.value_at(0.5) - CURVE.value_at(2.0)).abs() < 1e-14);
     }
 
     #[test]

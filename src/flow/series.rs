@@ -1,6 +1,6 @@
 //! Truncated power series.
 
-use super::taylor::{DEGREE, RECIPROCALS};
+use super::taylor_polynomials::{DEGREE, RECIPROCALS};
 
 /// A truncated power series in the variable sigma of a Taylor step: its coefficients, constant first.
 pub(super) type Series = [f64; DEGREE + 1];
@@ -61,7 +61,7 @@ pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
     pairs.map(|(a, b)| a * b).sum()
 }
 
-pub(super) use super::taylor::value;
+pub(super) use super::taylor_polynomials::value;
 
 /// The series with the sizes of all coefficients: a bound on a series.
 pub(super) fn majorant(series: &Series) -> Series {

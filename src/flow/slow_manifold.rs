@@ -13,7 +13,7 @@ use crate::budget;
 use super::modes::Modes;
 use super::power_law::PowerLaw;
 use super::series::{Series, convolve, derivative, power_series};
-use super::taylor::DEGREE;
+use super::taylor_polynomials::DEGREE;
 
 /// Number of coefficients of the series on the slow manifold, the unknowns of Newton's method.
 const ORDER: usize = DEGREE + 1;

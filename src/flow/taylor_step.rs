@@ -1,8 +1,8 @@
 //! One Taylor step: the motion over a short time as power series.
 //!
 //! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = forcing. Away from
-//! the face, and with n = 2, it is followed in time itself ([`super::steps_in_time`]), but for n = 3/2 under a constant forcing
-//! ([`super::sphere`]). At the face d^n has a branch point unless n is whole. If n is a
+//! the face, and with n = 2, it is followed in time itself ([`super::taylor_step_in_time`]), but for n = 3/2 under a constant forcing
+//! ([`super::taylor_step_on_sphere`]). At the face d^n has a branch point unless n is whole. If n is a
 //! multiple of 1/m it goes away where the m-th root s of d is the unknown and a stretched time sigma,
 //! dt = s^(m-1) dsigma, the variable (as Levi-Civita did for collisions, 1920):
 //!
@@ -13,7 +13,7 @@
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
 //! other n, while the power law's part of the motion is below rounding, it is left out right at the face. So it is
 //! on a start from rest at the face, where sigma is time itself; and so it is in slow motion under heavy damping
-//! ([`super::slow_manifold`]) and where there is no power law ([`super::steps_in_time`]).
+//! ([`super::slow_manifold`]) and where there is no power law ([`super::taylor_step_in_time`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ use super::LinearLaw;
 use super::power_law::PowerLaw;
 use super::series::{Series, ZERO, curved_part, derivative, power_series, product, value};
 use super::slow_manifold::SlowManifold;
-use super::taylor::{evaluate, evaluate_from};
+use super::taylor_polynomials::{value_and_rate, value_and_rate_from};
 
 /// One Taylor step of a motion: series in sigma, which is time or a regularised time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -172,7 +172,7 @@ impl TaylorStep {
         let (mut low, mut high) = (0.0, self.contact);
         let mut at = self.contact * (elapsed / self.end);
         for _ in 0..100 {
-            let (time, rate) = evaluate(&regularized.time, at);
+            let (time, rate) = value_and_rate(&regularized.time, at);
             if time > elapsed {
                 high = at;
             } else {
@@ -230,7 +230,7 @@ impl TaylorStep {
             };
         }
         let start = self.depth[0];
-        let (way, velocity) = evaluate_from(self.low, &self.depth, sigma);
+        let (way, velocity) = value_and_rate_from(self.low, &self.depth, sigma);
         // The sum without error of Knuth (1969, 4.2.2, theorem B).
         let sum = start + way;
         let taken = sum - start;

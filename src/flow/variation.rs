@@ -8,7 +8,7 @@ use super::paired_products::Products;
 use super::series::{
     Series, ZERO, derivative, integral, integral_of_product, power_series, product, value,
 };
-use super::taylor::{DEGREE, RECIPROCALS};
+use super::taylor_polynomials::{DEGREE, RECIPROCALS};
 use super::taylor_step::TaylorStep;
 use super::zero_state_responses::ZeroStateResponses;
 use crate::budget;

@@ -3,10 +3,10 @@
 use nalgebra::Complex;
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::ScanNode;
 use super::drive_angle::DriveAngle;
 use super::gauss::gauss_nodes;
 use super::particular_solution::ParticularSolution;
+use super::scan_node::ScanNode;
 use super::series::{ZERO, integral_of_product, value};
 use super::taylor_step::TaylorStep;
 

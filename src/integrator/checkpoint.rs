@@ -122,7 +122,7 @@ impl Observer for WorkRecorder<'_> {
         let since = self.clock.elapsed(arc.start, self.from);
         let flow = &arc.course.flow;
         let rate = flow.frequency + flow.modes.fastest_rate();
-        let power = |time: f64| self.force.eval(time - since) * arc.at(time).velocity;
+        let power = |time: f64| self.force.value_at(time - since) * arc.at(time).velocity;
         if elapsed > since {
             self.work += integrate((since.max(0.0), elapsed), rate, power);
         }

@@ -8,7 +8,7 @@ use super::simulation::Simulation;
 use super::start::Start;
 use crate::error::MotionError;
 use crate::flow::integrate;
-use crate::peak::largest_value;
+use crate::largest_value::largest_value;
 use crate::phases::PhaseKind;
 use crate::scene::Scene;
 

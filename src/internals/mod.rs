@@ -11,8 +11,8 @@ pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, Powe
 pub use crate::integrator::{
     Evaluations, MAX_RESTITUTION, Motion, PhaseTracker, WorkShares, work, work_shares,
 };
+pub use crate::largest_value::{highest_point, largest_value};
 pub use crate::machine::{nearest_name, with_near_word};
-pub use crate::peak::{highest_point, largest_value};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow_root;
 pub use crate::scene::{MAX_DAMPER_RATE, MAX_SPRING_RATE, MIN_SCALE_STIFFNESS, Scales, force_of};

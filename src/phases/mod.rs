@@ -3,9 +3,9 @@
 //! The positions are cut into layers (free, strip, stop, ...), each with one law for the way forward and, where there
 //! is dry friction, another for the way back. Nothing behind this module asks which stop it was.
 
+mod build_phases;
 mod id;
 mod layer_plan;
-mod lower;
 mod mode;
 mod stack;
 mod stop_energy;

@@ -1,14 +1,14 @@
 //! The exact Jacobian of a motion: free transitions joined by saltation matrices.
 
 mod frequency_sensitivity;
+mod output_sensitivity;
 mod parameter_sensitivity;
 mod phase_derivatives;
-mod sensitivity;
 
 pub use frequency_sensitivity::FrequencySensitivity;
+pub use output_sensitivity::{Perturbation, Sensitivity};
 pub use parameter_sensitivity::ParameterSensitivity;
 pub use phase_derivatives::PhaseDerivatives;
-pub use sensitivity::{Perturbation, Sensitivity};
 
 use nalgebra::{Matrix2, Vector2};
 

@@ -77,7 +77,7 @@ impl TaylorPolynomials {
 
     /// Position and velocity `s` seconds on.
     pub fn state_after(&self, s: f64) -> (f64, f64) {
-        evaluate(&self.position, s)
+        value_and_rate(&self.position, s)
     }
 }
 
@@ -132,14 +132,18 @@ pub(crate) fn value(coefficients: &[f64; DEGREE + 1], s: f64) -> f64 {
 
 /// Value and first derivative of a Taylor polynomial at `s`.
 #[inline]
-pub(crate) fn evaluate(coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
-    evaluate_from(coefficients[0], coefficients, s)
+pub(crate) fn value_and_rate(coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
+    value_and_rate_from(coefficients[0], coefficients, s)
 }
 
 /// Value and first derivative at `s` of a Taylor polynomial whose constant term is `first`: Horner's rule on four parts
 /// of it, side by side.
 #[inline]
-pub(super) fn evaluate_from(first: f64, coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
+pub(super) fn value_and_rate_from(
+    first: f64,
+    coefficients: &[f64; DEGREE + 1],
+    s: f64,
+) -> (f64, f64) {
     let square = s * s;
     let fourth = square * square;
     let (rows, rest) = coefficients.as_chunks::<4>();

@@ -1,4 +1,4 @@
-//! Lowering: from the scene's data to phases, layer by layer.
+//! Builds the phases of a scene from its data, layer by layer (lowering).
 
 use std::borrow::Cow;
 use std::sync::Arc;

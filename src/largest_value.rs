@@ -1,4 +1,4 @@
-//! The highest value of a function between two places.
+//! The place and the height of the largest value of a function between two places.
 
 use std::f64::consts::TAU;
 

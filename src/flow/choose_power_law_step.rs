@@ -5,9 +5,9 @@ use super::convergence::{convergence_reach, leading_convergence_reach};
 use super::power_law::PowerLaw;
 use super::series::{majorant, value};
 use super::slow_manifold::SlowEquation;
-use super::sphere::is_sphere;
-use super::taylor::forcing_series;
+use super::taylor_polynomials::forcing_series;
 use super::taylor_step::TaylorStep;
+use super::taylor_step_on_sphere::is_sphere;
 use super::{Departure, LinearLaw};
 
 /// Limits by which the form of a step under a power law is chosen.

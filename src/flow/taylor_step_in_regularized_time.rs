@@ -1,13 +1,13 @@
 //! Taylor steps under a power law in regularised time, at its face, and on a sphere throughout.
 
+use super::choose_power_law_step::span_without_power_law;
 use super::convergence::{convergence_reach, leading_convergence_reach, sphere_convergence_reach};
 use super::polynomial::HIGHEST_ORDER;
 use super::power_law::PowerLaw;
-use super::power_law_step::span_without_power_law;
 use super::series::{PowerRecurrence, ReversedSeries, Series, ZERO, convolve, majorant, value};
-use super::sphere::is_sphere;
-use super::taylor::{DEGREE, RECIPROCALS, evaluate};
+use super::taylor_polynomials::{DEGREE, RECIPROCALS, value_and_rate};
 use super::taylor_step::{RegularizedTime, TaylorStep};
+use super::taylor_step_on_sphere::is_sphere;
 use super::{Departure, LinearLaw, Polynomial};
 
 impl TaylorStep {
@@ -149,7 +149,7 @@ impl RegularizedTime {
         let (mut low, mut high) = (0.0, reach);
         let mut at = reach;
         loop {
-            let (root, rate) = evaluate(&self.root, at);
+            let (root, rate) = value_and_rate(&self.root, at);
             if root < 0.0 {
                 high = at;
             } else {

@@ -14,7 +14,7 @@ use super::convergence::{
 use super::paired_products::Products;
 use super::power_law::PowerLaw;
 use super::series::{Series, ZERO};
-use super::taylor::{DEGREE, RECIPROCALS, TaylorPolynomials, forcing_series};
+use super::taylor_polynomials::{DEGREE, RECIPROCALS, TaylorPolynomials, forcing_series};
 use super::taylor_step::TaylorStep;
 use super::{Departure, LinearLaw};
 

@@ -8,7 +8,7 @@
 
 use super::paired_products::Products;
 use super::power_law::PowerLaw;
-use super::taylor::{DEGREE, RECIPROCALS};
+use super::taylor_polynomials::{DEGREE, RECIPROCALS};
 use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw};
 
