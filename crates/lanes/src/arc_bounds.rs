@@ -6,7 +6,7 @@ use super::cycle::CycleArc;
 use super::cycle_state::Derivatives;
 
 /// Largest relative error that the bounds on an arc of a cycle allow first order: of a derivative over the time between the
-/// crossings of one face by two motions, and of that time itself. Beyond it there is no bound.
+/// crossings of one guard by two motions, and of that time itself. Beyond it there is no bound.
 const MAX_RELATIVE_CHANGE: f64 = 0.25;
 
 /// Bounds on the second-order remainder of a deviation from the cycle at a crossing: of state and delay.
@@ -44,7 +44,7 @@ impl ArcBounds {
 }
 
 impl CycleArc {
-    /// Bounds on the motions of a ball along this arc if they meet no other face than the cycle; none if the remainder exceeds
+    /// Bounds on the motions of a ball along this arc if they meet no other guard than the cycle; none if the remainder exceeds
     /// [`MAX_RELATIVE_CHANGE`] of first order.
     pub fn bounds(
         &self,

@@ -1,4 +1,4 @@
-//! Trains of bounces: whether lanes may follow a machine whose faces throw the mass back again and again.
+//! Trains of bounces: whether lanes may follow a machine whose surfaces throw the mass back again and again.
 
 use std::f64::consts::TAU;
 
@@ -6,13 +6,13 @@ use super::law::PhaseConstants;
 use softstop::Excitation;
 use softstop::internals::{Beyond, Exit, MAX_RESTITUTION, Phase, PhaseId, Phases, Surface};
 
-/// Duration of the shortest bounce, in drive periods, that lanes follow at a face at which bounces may come in trains.
+/// Duration of the shortest bounce, in drive periods, that lanes follow at a surface at which bounces may come in trains.
 const MIN_BOUNCE_DURATION: f64 = 1e-2;
 /// Largest (damping / mass) times drive period with which lanes follow a machine with trains of bounces: under less damping,
 /// bounces of at least [`MIN_BOUNCE_DURATION`] do not come to rest before the drive lifts the mass.
 const MAX_DAMPING_EXPONENT: f64 = 6.0;
 
-/// The phases and the drive of a machine, to find faces at which bounces come in trains (chatter): the drive can press the mass
+/// The phases and the drive of a machine, to find surfaces at which bounces come in trains (chatter): the drive can press the mass
 /// onto them while they throw it back with hardly any loss, by a jump of the force that is larger than the press, or as a wall
 /// that is nearly elastic. What ends a train only the safe engine can decide.
 pub(super) struct BounceTrains<'a> {
@@ -60,7 +60,7 @@ impl BounceTrains<'_> {
         elastic && before + self.drive.amplitude > 0.0
     }
 
-    /// True if the lanes meet no train of bounces that comes to rest: the drive lifts the mass from each face with trains before
+    /// True if the lanes meet no train of bounces that comes to rest: the drive lifts the mass from each surface with trains before
     /// damping has made the bounces too short.
     pub fn ends_before_rest(&self) -> bool {
         let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
@@ -69,20 +69,22 @@ impl BounceTrains<'_> {
         let lifts = |surface: &Surface| {
             self.force_towards_stop(surface.before, surface) < self.drive.amplitude && !strong
         };
-        let mut faces = self.phases.surfaces.iter();
-        faces.all(|surface| lifts(surface) || !self.bounces_at(surface))
+        let mut surfaces = self.phases.surfaces.iter();
+        surfaces.all(|surface| lifts(surface) || !self.bounces_at(surface))
     }
 
-    /// Speed in m/s from which on bounces at the faces of a phase last at least [`MIN_BOUNCE_DURATION`].
+    /// Speed in m/s from which on bounces at the surfaces of a phase last at least [`MIN_BOUNCE_DURATION`].
     fn slowest_bounce(&self, phase: &Phase) -> f64 {
-        let faces = phase.exits.iter().filter_map(|exit| match exit {
+        let surfaces = phase.exits.iter().filter_map(|exit| match exit {
             Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),
             Exit::Reversal { .. } | Exit::Switch(_) => None,
         });
         let press = |surface: &Surface| {
             self.force_towards_stop(surface.before, surface) + self.drive.amplitude
         };
-        let presses = faces.filter(|surface| self.bounces_at(surface)).map(press);
+        let presses = surfaces
+            .filter(|surface| self.bounces_at(surface))
+            .map(press);
         let half = 0.5 * MIN_BOUNCE_DURATION * TAU / self.drive.frequency;
         presses.fold(0.0, f64::max) / self.phases.mass * half
     }

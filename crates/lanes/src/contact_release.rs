@@ -1,15 +1,13 @@
-//! Where a mass in contact under a power law leaves the face: the square root of its deflection, a series in sigma,
+//! Where a mass in contact under a power law leaves the surface: the square root of its deflection, a series in sigma,
 //! passes zero there with a slope.
 
 use pulp::Simd;
 
-use super::contact_series::{ContactSeries, DEGREE, RECIPROCALS, Terms};
-use super::lanes::{Lanes, Mask, Pair};
+use super::contact_series::{ContactSeries, DEGREE, Terms, solve_series, value_and_rate};
+use super::lanes::{Lanes, Mask};
 
 /// Most halvings of a Taylor step until the release in it is decided; then the safe engine decides.
 const MAX_HALVINGS: usize = 6;
-/// Most steps of Newton's method for a zero of a contact's series; then the safe engine takes the lane.
-const MAX_NEWTON_STEPS: usize = 10;
 /// Bound on the rounding of the sum of a contact's series, relative to its first two terms.
 const SUM_ROUNDING: f64 = 1e-14;
 
@@ -45,7 +43,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         if !open.any() {
             return release;
         }
-        // At the face s / sigma takes the place of s.
+        // At the surface s / sigma takes the place of s.
         let mut series = self.root;
         for (k, term) in series.iter_mut().enumerate() {
             let next = if k < DEGREE { self.root[k + 1] } else { zero };
@@ -90,27 +88,6 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         margin.below(first) | margin.below(value + first.min(zero))
     }
 
-    /// The sigma at which `time` has passed since the beginning of the step, for steps that a period ends before a release; and
-    /// the lanes in which Newton's method found it. The pair `sigma`: a step that is longer, and its time.
-    #[inline(always)]
-    pub fn sigma_at_time(
-        &self,
-        time: Lanes<S, N>,
-        sigma: Pair<S, N>,
-        of: Mask<S, N>,
-    ) -> (Lanes<S, N>, Mask<S, N>) {
-        let (sigma, whole) = sigma;
-        let zero = time.like(0.0);
-        let mut series = [zero; DEGREE + 1];
-        for (k, term) in series.iter_mut().enumerate().skip(1) {
-            *term = self.root[k - 1] * zero.like(RECIPROCALS[k]);
-        }
-        let touches = self.root[0].equals(zero);
-        let share = time / whole;
-        let share = touches.choose(share.square_root(), share);
-        solve_series(&series, time, sigma, share, of)
-    }
-
     /// True where the terms of the series prove that the velocity towards the stop stays above `level` over a step `sigma`, so
     /// that the law's force does not change sign.
     #[inline(always)]
@@ -123,45 +100,6 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         let velocity = self.root[1] + self.root[1];
         level.below(velocity - change * sigma)
     }
-}
-
-/// Solves `series` = `level` by Newton's method in the lanes `of`, from `share` of `sigma` on and within 0 to `sigma`; the
-/// solution, and the lanes in which it converged.
-#[inline(always)]
-fn solve_series<S: Simd, const N: usize>(
-    series: &Terms<S, N>,
-    level: Lanes<S, N>,
-    sigma: Lanes<S, N>,
-    share: Lanes<S, N>,
-    of: Mask<S, N>,
-) -> (Lanes<S, N>, Mask<S, N>) {
-    let zero = sigma.like(0.0);
-    let mut at = sigma * share;
-    let mut open = of;
-    for _ in 0..MAX_NEWTON_STEPS {
-        let (value, rate) = value_and_rate(series, at);
-        let step = (value - level) / rate;
-        let next = (at - step).max(zero).min(sigma);
-        at = open.choose(next, at);
-        // After a step of 1e-8 of the Taylor step the next one would be lost in rounding.
-        open = open.and_not(step.abs().below(sigma * zero.like(1e-8)));
-        if !open.any() {
-            break;
-        }
-    }
-    (at, of.and_not(open))
-}
-
-/// Value and first derivative of a series at `at`.
-#[inline(always)]
-fn value_and_rate<S: Simd, const N: usize>(series: &Terms<S, N>, at: Lanes<S, N>) -> Pair<S, N> {
-    let mut value = series[DEGREE];
-    let mut rate = at.like(0.0);
-    for k in (0..DEGREE).rev() {
-        rate = rate.mul_add(at, value);
-        value = value.mul_add(at, series[k]);
-    }
-    (value, rate)
 }
 
 /// Bounds a series on [0, sigma] by the sizes of its terms.

@@ -11,6 +11,7 @@
 
 use pulp::Simd;
 
+use super::contact_state::ContactState;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Laws;
 
@@ -27,20 +28,10 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
     table
 };
 
+/// Most steps of Newton's method for a zero of a contact's series; then the safe engine takes the lane.
+const MAX_NEWTON_STEPS: usize = 10;
 /// Coefficients of a power series in sigma in every lane, the constant first.
 pub(super) type Terms<S, const N: usize> = [Lanes<S, N>; DEGREE + 1];
-
-/// State of a power-law contact in every lane.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ContactState<S: Simd, const N: usize> {
-    /// Square root s of the deflection; velocity towards the stop.
-    pub root: Lanes<S, N>,
-    pub velocity: Lanes<S, N>,
-    /// cos and sin of the drive angle.
-    pub angle: Pair<S, N>,
-    /// Time since the contact was taken up, in s.
-    pub time: Lanes<S, N>,
-}
 
 /// Power series of one Taylor step of a contact: of its state, and of the products in its equation of motion.
 #[derive(Debug, Clone, Copy)]
@@ -81,21 +72,6 @@ impl<S: Simd, const N: usize> ContactExponents<S, N> {
             is_half_of_three,
             is_two: law.exponent.equals(zero.like(2.0)),
             grips: zero.below(law.grip).any(),
-        }
-    }
-}
-
-impl<S: Simd, const N: usize> ContactState<S, N> {
-    #[inline(always)]
-    pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
-        Self {
-            root: mask.choose(yes.root, no.root),
-            velocity: mask.choose(yes.velocity, no.velocity),
-            angle: (
-                mask.choose(yes.angle.0, no.angle.0),
-                mask.choose(yes.angle.1, no.angle.1),
-            ),
-            time: mask.choose(yes.time, no.time),
         }
     }
 }
@@ -264,6 +240,69 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
             time: time.mul_add(sigma, from.root).mul_add(sigma, from.time),
         }
     }
+
+    /// The sigma at which `time` has passed since the beginning of the step, for steps that a period ends before a release; and
+    /// the lanes in which Newton's method found it. The pair `sigma`: a step that is longer, and its time.
+    #[inline(always)]
+    pub fn sigma_at_time(
+        &self,
+        time: Lanes<S, N>,
+        sigma: Pair<S, N>,
+        of: Mask<S, N>,
+    ) -> (Lanes<S, N>, Mask<S, N>) {
+        let (sigma, whole) = sigma;
+        let zero = time.like(0.0);
+        let mut series = [zero; DEGREE + 1];
+        for (k, term) in series.iter_mut().enumerate().skip(1) {
+            *term = self.root[k - 1] * zero.like(RECIPROCALS[k]);
+        }
+        let touches = self.root[0].equals(zero);
+        let share = time / whole;
+        let share = touches.choose(share.square_root(), share);
+        solve_series(&series, time, sigma, share, of)
+    }
+}
+
+/// Solves `series` = `level` by Newton's method in the lanes `of`, from `share` of `sigma` on and within 0 to `sigma`; the
+/// solution, and the lanes in which it converged.
+#[inline(always)]
+pub(super) fn solve_series<S: Simd, const N: usize>(
+    series: &Terms<S, N>,
+    level: Lanes<S, N>,
+    sigma: Lanes<S, N>,
+    share: Lanes<S, N>,
+    of: Mask<S, N>,
+) -> (Lanes<S, N>, Mask<S, N>) {
+    let zero = sigma.like(0.0);
+    let mut at = sigma * share;
+    let mut open = of;
+    for _ in 0..MAX_NEWTON_STEPS {
+        let (value, rate) = value_and_rate(series, at);
+        let step = (value - level) / rate;
+        let next = (at - step).max(zero).min(sigma);
+        at = open.choose(next, at);
+        // After a step of 1e-8 of the Taylor step the next one would be lost in rounding.
+        open = open.and_not(step.abs().below(sigma * zero.like(1e-8)));
+        if !open.any() {
+            break;
+        }
+    }
+    (at, of.and_not(open))
+}
+
+/// Value and first derivative of a series at `at`.
+#[inline(always)]
+pub(super) fn value_and_rate<S: Simd, const N: usize>(
+    series: &Terms<S, N>,
+    at: Lanes<S, N>,
+) -> Pair<S, N> {
+    let mut value = series[DEGREE];
+    let mut rate = at.like(0.0);
+    for k in (0..DEGREE).rev() {
+        rate = rate.mul_add(at, value);
+        value = value.mul_add(at, series[k]);
+    }
+    (value, rate)
 }
 
 /// Coefficient k of the product of two power series.

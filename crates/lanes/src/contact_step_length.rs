@@ -2,9 +2,8 @@
 
 use pulp::Simd;
 
-use super::contact_series::{ContactSeries, ContactState, DEGREE};
+use super::contact_series::{ContactSeries, DEGREE};
 use super::lanes::{Lanes, Mask};
-use super::law::Laws;
 
 /// How many last terms of a series are compared with its first: in symmetric cases all but every fifth or seventh vanish.
 const LAST_TERMS_COMPARED: usize = 7;
@@ -14,16 +13,6 @@ const MIN_RATIO_TO_LAST_TERM: f64 = 1.0 / (1u64 << 24) as f64;
 
 /// Most guesses of a step length, each within a factor of two of the one before.
 const MAX_GUESSES: usize = 64;
-
-impl<S: Simd, const N: usize> ContactState<S, N> {
-    /// The longest step, in sigma, over which the series of drive and suspension converge fast from this state.
-    #[inline(always)]
-    pub fn longest_step(&self, law: &Laws<S, N>) -> Lanes<S, N> {
-        let four = law.window.like(4.0);
-        let by_speed = (law.window * four / self.velocity.abs()).square_root();
-        (law.window / self.root).min(by_speed)
-    }
-}
 
 impl<S: Simd, const N: usize> ContactSeries<S, N> {
     /// Length, in sigma, of the step over which the series hold to rounding in the lanes `of`, from a `guess` on; and where it

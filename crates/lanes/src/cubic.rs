@@ -31,7 +31,7 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
     }
 
     #[inline(always)]
-    fn eval(&self, t: Lanes<S, N>) -> Lanes<S, N> {
+    fn value_at(&self, t: Lanes<S, N>) -> Lanes<S, N> {
         let one = t.like(1.0);
         let bend = (t - one).mul_add(self.twist, self.bend);
         t.mul_add(t.mul_add(bend, self.slope), self.value)
@@ -59,7 +59,7 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         let t = over / under;
         let inside = zero.below(t) & t.below(one);
         inside
-            .choose(self.eval(t), self.value)
+            .choose(self.value_at(t), self.value)
             .max(self.value.max(self.end))
     }
 
@@ -87,7 +87,10 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         if rising.any() {
             // Up, down and up again?
             let winds = zero.below(self.slope.min(self.last_slope)) & middle.below(zero);
-            let near = self.eval(root).abs().below(error_bound * one.like(0.02));
+            let near = self
+                .value_at(root)
+                .abs()
+                .below(error_bound * one.like(0.02));
             let slope = self.slope_at(root);
             let curvature = first.abs().max(curve.abs());
             // The function may vanish where the cubic is within its error bound: at most 2 error bound / slope from the

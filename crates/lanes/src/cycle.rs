@@ -7,10 +7,10 @@ use std::ops::Range;
 
 use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 
-use super::cycle_state::{CycleState, Derivatives, FaceCrossing, Forcing, Jet};
+use super::cycle_state::{CycleState, Derivatives, Forcing, GuardCrossing, Jet};
 use super::cycle_windows::CycleWindows;
-use super::face::PhaseFace;
 use super::law::{MIN_WINDOW_SHARE, PhaseConstants};
+use super::phase_guards::PhaseGuard;
 use softstop::internals::Modes;
 
 /// Most windows into which a cycle is divided for the proof.
@@ -24,12 +24,12 @@ const MAX_ARC_MISMATCH: f64 = 1e-9;
 #[derive(Debug)]
 pub(super) struct CycleArc {
     phase: usize,
-    /// The cycle at its start and cos + i sin of the drive angle, its length in s, the faces at which it begins and ends.
+    /// The cycle at its start and cos + i sin of the drive angle, its length in s, the guards at which it begins and ends.
     start: CycleState,
     angle: Complex<f64>,
     duration: f64,
-    entry: PhaseFace,
-    exit: PhaseFace,
+    entry: PhaseGuard,
+    exit: PhaseGuard,
     modes: Modes,
     /// Range of the windows of the arc among those of the cycle.
     pub windows: Range<usize>,
@@ -72,7 +72,7 @@ impl Cycle {
         &mut self,
         laws: &[PhaseConstants],
         drive: &Forcing,
-        (from, passages): (FaceCrossing, &[FaceCrossing]),
+        (from, passages): (GuardCrossing, &[GuardCrossing]),
         velocity: f64,
     ) -> Option<()> {
         self.arcs.clear();
@@ -110,7 +110,7 @@ impl Cycle {
         &mut self,
         law: &PhaseConstants,
         drive: &Forcing,
-        [(from, angle), (to, turned)]: [(&FaceCrossing, Complex<f64>); 2],
+        [(from, angle), (to, turned)]: [(&GuardCrossing, Complex<f64>); 2],
         (state, delay): (&Matrix2<f64>, &RowVector2<f64>),
     ) -> Option<()> {
         let duration = (from.left - to.left) * drive.period + (to.offset - from.offset);
@@ -129,7 +129,7 @@ impl Cycle {
         let off = (transition * start.free - end.free).abs();
         let size = law.swing + law.offset.abs() + to.position.abs();
         let [_, v, a, _] = end.jet;
-        let exit = law.crossed_face(to);
+        let exit = law.crossed_guard(to);
         let rate = exit.position * v + exit.velocity * a;
         if off.x + off.y * law.window > MAX_ARC_MISMATCH * size || rate <= 0.0 {
             return None;
@@ -142,7 +142,7 @@ impl Cycle {
             angle,
             duration,
             modes,
-            entry: law.crossed_face(from),
+            entry: law.crossed_guard(from),
             exit,
             windows: 0..0,
             damping: law.damping.abs(),
@@ -163,7 +163,7 @@ impl Cycle {
         Some(())
     }
 
-    /// Divides the arcs into windows that show how far other motions may deviate from the cycle without meeting another face;
+    /// Divides the arcs into windows that show how far other motions may deviate from the cycle without meeting another guard;
     /// none if that takes too many windows.
     pub fn divide_into_windows(&mut self, laws: &[PhaseConstants], drive: &Forcing) -> Option<()> {
         for arc in &mut self.arcs {
@@ -194,7 +194,7 @@ impl CycleArc {
         }
     }
 
-    /// Adds the windows of the arc, halved where the cycle is not proven clear of other faces; none if they get too short or too
+    /// Adds the windows of the arc, halved where the cycle is not proven clear of other guards; none if they get too short or too
     /// many.
     fn divide_arc(
         &self,

@@ -4,9 +4,9 @@ use nalgebra::{Complex, Matrix2, Vector2};
 
 use super::law::PhaseConstants;
 
-/// A recorded crossing of a face by a trial cycle.
+/// A recorded crossing of a guard by a trial cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FaceCrossing {
+pub(super) struct GuardCrossing {
     pub position: f64,
     /// Velocities before and after it.
     pub velocity: f64,

@@ -1,22 +1,22 @@
-//! The windows of a cycle: how far another motion may deviate in each and provably meet no other face.
+//! The windows of a cycle: how far another motion may deviate in each and provably meet no other guard.
 
 use std::ops::Range;
 
 use nalgebra::Vector4;
 
 use super::cycle_state::{CycleState, Derivatives};
-use super::face::PhaseFace;
 use super::law::{PhaseConstants, WINDOW_ANGLE};
+use super::phase_guards::PhaseGuard;
 
 /// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the error M
 /// h^4 / 384 of its value; M: largest fourth derivative (Birkhoff and Priver 1967).
 const RATE_ERROR: f64 = 384.0 * 0.008_018_753_738_744_818;
 
-/// The windows into which a trial cycle is divided, one after another, with the margins of the faces in each.
+/// The windows into which a trial cycle is divided, one after another, with the margins of the guards in each.
 #[derive(Debug, Default)]
 pub(super) struct CycleWindows {
     pub all: Vec<CycleWindow>,
-    /// The margins of the faces of their phases, window by window.
+    /// The margins of the guards of their phases, window by window.
     margins: Vec<WindowMargin>,
 }
 
@@ -31,20 +31,20 @@ pub(super) struct CycleWindow {
     margins: Range<usize>,
 }
 
-/// The margin of a face in a window of a trial cycle: how far value, rate and second derivative of the face's function may
-/// deviate for the face to be provably not met, or at the end of an arc not before that end.
+/// The margin of a guard in a window of a trial cycle: how far value, rate and second derivative of the guard may
+/// deviate for it to be provably not met, or at the end of an arc not before that end.
 #[derive(Debug, Clone, Copy)]
 struct WindowMargin {
     /// Weights of position and velocity.
     position: f64,
     velocity: f64,
-    /// Largest deviation of the value where the whole window is far from the face.
+    /// Largest deviation of the value where the whole window is far from the guard.
     clear: f64,
     /// Largest deviation of the value where only both ends are far from it: then the rate must keep its sign, or the value be
     /// convex, which holds up to these deviations of the rate and of the second derivative.
     ends: f64,
-    slope: f64,
-    convex: f64,
+    rate: f64,
+    second: f64,
 }
 
 impl CycleWindows {
@@ -53,14 +53,14 @@ impl CycleWindows {
         self.margins.clear();
     }
 
-    /// Adds the window between two states of an arc, with the faces at which the arc begins or ends in it; false if the cycle
-    /// itself is not proven to stay clear of the other faces.
+    /// Adds the window between two states of an arc, with the guards at which the arc begins or ends in it; false if the cycle
+    /// itself is not proven to stay clear of the other guards.
     pub fn add_window(
         &mut self,
         law: &PhaseConstants,
         (from, to): (&CycleState, &CycleState),
         step: f64,
-        (entry, exit): (Option<PhaseFace>, Option<PhaseFace>),
+        (entry, exit): (Option<PhaseGuard>, Option<PhaseGuard>),
         at_start: Derivatives,
     ) -> bool {
         let share = step * law.per_window;
@@ -74,27 +74,27 @@ impl CycleWindows {
         let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
         let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs() * longer;
         let rate_error_bound = scale * (law.rate_steady + rate_fifth + rate_sixth);
-        let margin = |face: PhaseFace| {
+        let margin = |guard: PhaseGuard| {
             let error_bound =
-                face.position.abs() * error_bound + face.velocity.abs() * rate_error_bound;
-            let ambiguity = match face.velocity {
+                guard.position.abs() * error_bound + guard.velocity.abs() * rate_error_bound;
+            let ambiguity = match guard.velocity {
                 0.0 => law.ambiguity,
                 _ => law.ambiguity * law.guard_scale,
             };
             // Levels of the same function of position and velocity.
-            let gradient = (face.position, face.velocity);
+            let gradient = (guard.position, guard.velocity);
             let [is_entry, is_exit] =
                 [entry, exit].map(|it| it.is_some_and(|it| (it.position, it.velocity) == gradient));
-            WindowMargin::of_face(
-                &face,
+            WindowMargin::of_guard(
+                &guard,
                 (from, to),
                 step,
                 (error_bound, ambiguity),
                 (is_entry, is_exit),
             )
         };
-        let faces = law.faces().into_iter();
-        let within_reach = faces.filter(|face| face.level < f64::INFINITY);
+        let guards = law.guards().into_iter();
+        let within_reach = guards.filter(|guard| guard.level < f64::INFINITY);
         let first = self.margins.len();
         self.margins.extend(within_reach.map(margin));
         let window = CycleWindow {
@@ -116,7 +116,7 @@ impl CycleWindows {
         is_clear
     }
 
-    /// True if no motion meets another face in a window whose position and derivatives deviate from the cycle by at most `most`.
+    /// True if no motion meets another guard in a window whose position and derivatives deviate from the cycle by at most `most`.
     pub fn is_clear(&self, window: &CycleWindow, most: &Vector4<f64>) -> bool {
         let mut margins = self.margins[window.margins.clone()].iter();
         margins.all(|margin| margin.tolerates_deviation(most))
@@ -124,25 +124,25 @@ impl CycleWindows {
 }
 
 impl WindowMargin {
-    fn of_face(
-        face: &PhaseFace,
+    fn of_guard(
+        guard: &PhaseGuard,
         (from, to): (&CycleState, &CycleState),
         step: f64,
         (error_bound, ambiguity): (f64, f64),
         (is_entry, is_exit): (bool, bool),
     ) -> Self {
-        let PhaseFace {
+        let PhaseGuard {
             position,
             velocity,
             level,
-        } = *face;
+        } = *guard;
         let mut margin = Self {
             position,
             velocity,
             clear: f64::INFINITY,
             ends: f64::INFINITY,
-            slope: f64::NEG_INFINITY,
-            convex: f64::NEG_INFINITY,
+            rate: f64::NEG_INFINITY,
+            second: f64::NEG_INFINITY,
         };
         let value = |[x, v, ..]: [f64; 4]| position * x + velocity * v - level;
         let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
@@ -167,13 +167,13 @@ impl WindowMargin {
         let differences = [b1 - g0, b2 - b1, g1 - b2].map(|difference| difference / third);
         let [d0, d1, d2] = differences;
         if is_start {
-            margin.slope = -d0.max(d1).max(d2) - RATE_ERROR * error_bound / step;
+            margin.rate = -d0.max(d1).max(d2) - RATE_ERROR * error_bound / step;
         } else if is_exit {
-            margin.slope = d0.min(d1).min(d2) - RATE_ERROR * error_bound / step;
+            margin.rate = d0.min(d1).min(d2) - RATE_ERROR * error_bound / step;
         }
         let second = (d1 - d0).min(d2 - d1) * 2.0 / step;
         // The second derivative of the cubic is off by M h^2 / 12 at most.
-        margin.convex = second - 384.0 / 12.0 * error_bound / (step * step);
+        margin.second = second - 384.0 / 12.0 * error_bound / (step * step);
         margin
     }
 
@@ -181,6 +181,6 @@ impl WindowMargin {
         let [position, velocity] = [self.position.abs(), self.velocity.abs()];
         let of = |order: usize| position * most[order] + velocity * most[order + 1];
         let (value, rate, second) = (of(0), of(1), of(2));
-        value < self.clear || (value < self.ends && (rate < self.slope || second < self.convex))
+        value < self.clear || (value < self.ends && (rate < self.rate || second < self.second))
     }
 }

@@ -3,12 +3,12 @@
 use pulp::Simd;
 
 use super::engine::Engine;
-use super::guard::WindowGuard;
 use super::guard_search::SearchResult;
 use super::lanes::{Lanes, Mask};
 use super::law::MIN_WINDOW_SHARE;
 use super::move_lanes::LaneEnd;
 use super::scan::ScanResult;
+use super::window_guard::WindowGuard;
 
 /// Shortest time that lanes decide at once, in windows: where less is left of a period it is taken for this long.
 const MIN_DECIDED_SPAN: f64 = 1e-12;
@@ -67,7 +67,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         );
         let end = if HAS_OTHER_ENDS {
             let (is_low, is_further) = (guard.is_low, guard.is_further);
-            let (at_face, at_further) = (hits.and_not(is_further), hits & is_further);
+            let (at_position, at_further) = (hits.and_not(is_further), hits & is_further);
             let turns = at_further & law.ends_at_reversal();
             let turned = turns.choose(zero, v);
             let x = at_further.choose(found.position, x);
@@ -75,8 +75,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let bounced = v * is_low.choose(law.bounce_low, law.bounce);
             let impact = is_low.choose(law.impact_low, law.impact);
             LaneEnd {
-                x: at_face.choose(is_low.choose(law.low, law.high), x),
-                v: at_face.choose(bounced, turned),
+                x: at_position.choose(is_low.choose(law.low, law.high), x),
+                v: at_position.choose(bounced, turned),
                 beyond: is_further.choose(law.beyond_guard, beyond),
                 impact: is_further.choose(zero, impact),
                 before: v,

@@ -4,13 +4,13 @@
 use pulp::Simd;
 
 use super::engine::Engine;
+use super::free_and_steady_parts::Parts;
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Laws;
 use super::local_taylor;
 use super::move_lanes::LaneEnd;
 use super::nearby_zero::nearby_zero;
-use super::parts::Parts;
 use super::scan::LEAVING_MARGIN;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 

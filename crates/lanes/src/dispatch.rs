@@ -2,11 +2,11 @@
 
 use pulp::{Simd, WithSimd};
 
+use super::batch_observer::{BatchObserver, ObserverHandle};
 use super::engine::Engine;
 use super::job::{Job, Outcome, Task};
 use super::lanes::Lanes;
 use super::lowered_machine::LoweredMachine;
-use super::observer::{BatchObserver, ObserverHandle};
 
 /// Number of vector registers over which the lanes of one batch are spread: while one waits, the other goes on.
 pub(super) const REGISTERS_PER_BATCH: usize = 2;

@@ -31,7 +31,7 @@ use super::lanes::{Lanes, Mask};
 use super::law::Laws;
 use super::lowered_machine::LoweredMachine;
 use super::phase_order::{PhaseGraph, phase_order};
-use super::returns::ReturnHistory;
+use super::return_history::ReturnHistory;
 use super::safe_engine::{self, Resumed, SafeStart};
 use super::state::LaneStates;
 use softstop::Start;

@@ -3,15 +3,15 @@
 use pulp::Simd;
 
 use super::cubic::Cubic;
-use super::guard::WindowGuard;
+use super::free_and_steady_parts::Parts;
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Laws;
 use super::local_taylor;
 use super::nearby_zero::nearby_zero;
-use super::parts::Parts;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 use super::window_ahead::WindowAhead;
+use super::window_guard::WindowGuard;
 
 /// Most guesses, besides the first, of a crossing or a maximum of the guard; then the safe engine finds it.
 const MAX_INSTANTS: usize = 6;
@@ -158,7 +158,7 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
             goal.at = open.choose(next, goal.at);
             let tops = goal.humps & zeros.sure;
             if tops.any() {
-                let height = local_taylor::eval(&local, zeros.time);
+                let height = local_taylor::value_at(&local, zeros.time);
                 self.decide_at_maximum(left, tops, height, ahead.span, &mut goal);
             }
         }

@@ -1,7 +1,7 @@
 //! The jobs of a batch and their outcomes.
 
+use super::batch_observer::ObserverHandle;
 use super::lowered_machine::LoweredMachine;
-use super::observer::ObserverHandle;
 use softstop::{MotionError, Start};
 
 /// A motion to follow, from drive period 0 on.
@@ -22,7 +22,7 @@ pub struct Outcome {
     pub end: Start,
     /// Impacts on the way.
     pub impacts: u64,
-    /// Crossings of all faces on the way: of the stop, the strip, corners, the wall, and reversals that change the law.
+    /// Crossings of all surfaces on the way: of the stop, the strip, corners, the wall, and reversals that change the law.
     pub crossings: u64,
     /// Drive periods that the safe engine followed, in part or whole.
     pub handed_over: u64,

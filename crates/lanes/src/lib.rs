@@ -10,7 +10,7 @@
 //! engine up to the end of the drive period. Machines with other power laws go there altogether.
 //!
 //! Motions that settle are leapt over, unless somebody watches them: those that meet nothing any more, and those
-//! whose returns to the same impact provably lead to a limit past no other face.
+//! whose returns to the same impact provably lead to a limit past no other guard.
 //!
 //! A lane turns cos and sin of the drive angle on with the motion, and takes them anew from the time since the
 //! beginning of its drive period every few periods of its own: the drive never drifts, and a motion does not depend on
@@ -53,13 +53,14 @@
 //! steps or by callgrind, which no command of the project repeats. `engine.rs` lists what was tried and dropped.
 
 mod arc_bounds;
+mod batch_observer;
 mod bounce_trains;
-mod certificate;
 mod constants;
-mod contact;
 mod contact_release;
 mod contact_series;
+mod contact_state;
 mod contact_step_length;
+mod contraction_certificate;
 mod contraction_norm;
 mod cubic;
 mod cycle;
@@ -70,8 +71,8 @@ mod direct_step;
 mod dispatch;
 mod engine;
 mod extrapolate_limit;
-mod face;
-mod guard;
+mod follow_contacts;
+mod free_and_steady_parts;
 mod guard_interval;
 mod guard_search;
 mod job;
@@ -81,12 +82,11 @@ mod local_taylor;
 mod lowered_machine;
 mod move_lanes;
 mod nearby_zero;
-mod observer;
-mod parts;
+mod phase_guards;
 mod phase_order;
 mod record_returns;
 mod return_bounds;
-mod returns;
+mod return_history;
 mod run;
 mod safe_engine;
 mod scan;
@@ -94,9 +94,10 @@ mod sine_cosine;
 mod skip_contactless;
 mod state;
 mod window_ahead;
+mod window_guard;
 
+pub use batch_observer::BatchObserver;
 pub use dispatch::{InstructionLimit, Registers};
 pub use job::{Job, Outcome};
 pub use lowered_machine::LoweredMachine;
-pub use observer::BatchObserver;
 pub use run::{run, run_one_by_one, run_parallel, run_with};

@@ -2,9 +2,9 @@
 
 use pulp::Simd;
 
+use super::free_and_steady_parts::Parts;
 use super::lanes::{Lanes, Pair};
 use super::law::Laws;
-use super::parts::Parts;
 
 /// Coefficients of a Taylor polynomial in time about one instant, in every lane, the value first.
 pub(super) type LocalTaylor<S, const N: usize> = [Lanes<S, N>; TERMS];
@@ -100,7 +100,7 @@ pub(super) fn curvature_at<S: Simd, const N: usize>(
 
 /// Value of a Taylor polynomial a time `at` from its centre.
 #[inline(always)]
-pub(super) fn eval<S: Simd, const N: usize>(
+pub(super) fn value_at<S: Simd, const N: usize>(
     local: &LocalTaylor<S, N>,
     at: Lanes<S, N>,
 ) -> Lanes<S, N> {

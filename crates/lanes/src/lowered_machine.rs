@@ -37,7 +37,7 @@ impl LoweredMachine {
     }
 
     /// True if lanes can follow the machine's motions; else the safe engine does. All laws are linear but for a power law at the
-    /// end, none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back in trains of
+    /// end, none is much stiffer than the drive is slow, and none can hold the mass at a surface that throws it back in trains of
     /// bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()

@@ -1,13 +1,13 @@
-//! Records the returns of the lanes to their impacts and does what [`ReturnHistory`](super::returns::ReturnHistory) decides:
+//! Records the returns of the lanes to their impacts and does what [`ReturnHistory`](super::return_history::ReturnHistory) decides:
 //! follow a trial cycle, go back, or skip periods that repeat.
 
 use nalgebra::Complex;
 use pulp::Simd;
 
-use super::cycle_state::{FaceCrossing, Forcing};
+use super::cycle_state::{Forcing, GuardCrossing};
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
-use super::returns::ReturnDecision;
+use super::return_history::ReturnDecision;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Begins to record the returns of a lane to an impact for a new job, unless an observer watches what would be skipped.
@@ -28,7 +28,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     pub fn record_trial_crossings(&mut self, crossed: Mask<S, N>, before: Lanes<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if crossed.get(lane) && self.returns[lane].is_trial() {
-                self.returns[lane].passages.push(FaceCrossing {
+                self.returns[lane].passages.push(GuardCrossing {
                     position: self.state.x.get(lane),
                     velocity: before.get(lane),
                     velocity_after: self.state.v.get(lane),

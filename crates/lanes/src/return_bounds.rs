@@ -1,4 +1,4 @@
-//! Bounds on the next return of all motions in a ball about a cycle, which prove that they cross the same faces and
+//! Bounds on the next return of all motions in a ball about a cycle, which prove that they cross the same guards and
 //! how far from linear their returns are.
 //!
 //! A motion is compared with the cycle at equal times since their last crossings, so that it deviates by a state and by the
@@ -38,7 +38,7 @@ impl Cycle {
         Some(remainder)
     }
 
-    /// True if no motion of the ball, the image of the unit disc, meets another face than the cycle does.
+    /// True if no motion of the ball, the image of the unit disc, meets another guard than the cycle does.
     pub fn ball_is_clear(&self, ball: &Matrix2<f64>) -> bool {
         let mut rest = LinearError::default();
         self.arcs.iter().all(|arc| {
@@ -51,7 +51,7 @@ impl Cycle {
         })
     }
 
-    /// True if no motion of the ball meets another face than the cycle on an arc; `rest`: remainder at the crossing before.
+    /// True if no motion of the ball meets another guard than the cycle on an arc; `rest`: remainder at the crossing before.
     fn arc_is_clear(
         &self,
         arc: &CycleArc,

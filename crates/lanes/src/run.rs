@@ -4,11 +4,11 @@ use std::ops::{ControlFlow, Range};
 
 use rayon::prelude::*;
 
+use super::batch_observer::{BatchObserver, ObserverHandle};
 use super::dispatch;
 use super::dispatch::InstructionLimit;
 use super::job::{Job, Outcome};
 use super::lowered_machine::LoweredMachine;
-use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 
 /// Number of jobs that one thread follows as a batch: enough for all lanes to be busy nearly to its end. The lanes of a batch

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use super::batch_observer::ObserverHandle;
 use super::job::Outcome;
 use super::lowered_machine::LoweredMachine;
-use super::observer::ObserverHandle;
 use softstop::internals::{Mode, Motion};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};
 

@@ -1,17 +1,17 @@
-//! Skips all drive periods at once in lanes that provably meet no face any more.
+//! Skips all drive periods at once in lanes that provably meet no surface any more.
 
 use pulp::Simd;
 
 use super::engine::Engine;
+use super::free_and_steady_parts::Parts;
 use super::lanes::{Lanes, Mask};
-use super::parts::Parts;
 use super::scan::ScanResult;
 
 /// Drive periods at the end of a job that are never skipped: more than one scan covers.
 const UNSKIPPED_PERIODS: f64 = 4.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves active lanes on to the last drive periods of their job if they provably never meet a face again: their free motion
+    /// Moves active lanes on to the last drive periods of their job if they provably never meet a surface again: their free motion
     /// dies away, and the largest sum of it and the steady motion lies below the guard. An observer is told of the skipped
     /// periods.
     #[inline(always)]

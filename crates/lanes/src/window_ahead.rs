@@ -3,9 +3,9 @@
 use pulp::Simd;
 
 use super::engine::Engine;
+use super::free_and_steady_parts::Parts;
 use super::lanes::{Lanes, Mask};
 use super::law::Laws;
-use super::parts::Parts;
 use super::scan::ScanResult;
 
 /// The window that each lane decides next, or the first part of it, with the motion at its ends.

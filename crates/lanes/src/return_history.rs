@@ -9,7 +9,7 @@
 //!    rate r < 1 (Stein).
 //! 2. In a ball of this norm the next return deviates by M d but for K |d|^2. A [`ContractionCertificate`] has K from the law's
 //!    constants, and from the Hermite cubic of each window with its error (Birkhoff and Priver 1967) that no motion of the
-//!    ball reaches another face of its phase.
+//!    ball reaches another guard of its phase.
 //! 3. If the radius is at most r (1 - r) / 2K, the ball is mapped into itself: all its motions make the cycle's crossings
 //!    for ever.
 //! 4. The lane goes back to the motion's own last return and follows it until a return lies in the ball and all that is not
@@ -20,10 +20,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::certificate::{ContractionCertificate, find_ball};
+use super::contraction_certificate::{ContractionCertificate, find_ball};
 use super::contraction_norm::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
-use super::cycle_state::{FaceCrossing, Forcing};
+use super::cycle_state::{Forcing, GuardCrossing};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::PhaseConstants;
 
@@ -86,9 +86,9 @@ pub(super) struct PostImpactState {
 }
 
 impl PostImpactState {
-    /// The impact that leads to this state, as a crossing of a face.
-    fn as_crossing(&self) -> FaceCrossing {
-        FaceCrossing {
+    /// The impact that leads to this state, as a crossing of a guard.
+    fn as_crossing(&self) -> GuardCrossing {
+        GuardCrossing {
             position: self.position,
             velocity: self.velocity,
             velocity_after: self.velocity,
@@ -119,7 +119,7 @@ pub(super) struct ReturnHistory {
     moment: f64,
     /// The trial cycle: its first return, its crossings and its derivatives.
     tried: PostImpactState,
-    pub passages: Vec<FaceCrossing>,
+    pub passages: Vec<GuardCrossing>,
     cycle: Cycle,
 }
 

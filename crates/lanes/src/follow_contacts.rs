@@ -14,7 +14,8 @@
 
 use pulp::Simd;
 
-use super::contact_series::{ContactSeries, ContactState};
+use super::contact_series::ContactSeries;
+use super::contact_state::ContactState;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Laws;

@@ -2,10 +2,10 @@
 
 use pulp::Simd;
 
+use super::free_and_steady_parts::Parts;
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Laws;
-use super::parts::Parts;
 use super::window_ahead::WindowAhead;
 
 /// The guard function that each lane may meet in its window, g = position x + velocity v - level, with error bounds.
