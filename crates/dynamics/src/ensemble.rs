@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::batch::follow_batch;
 use crate::monitor::{Monitor, stop_if};
+use crate::monitored_batch::follow_batch;
 use crate::orbit::OrbitError;
 use crate::parallel;
 use softstop::internals::budget;

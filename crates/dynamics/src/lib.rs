@@ -1,7 +1,7 @@
 //! Periodic motions of impact oscillators and what becomes of them: [`orbit`] (z = p/n, Floquet
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
 //! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`] (what is seen from many starts),
-//! told in one vocabulary ([`motion`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`]
+//! told in one vocabulary ([`motion_kind`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`]
 //! (figures of a period), [`missing_strips`] (strips that fail to come), [`run_up`] (from rest to work).
 //!
 //! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
@@ -25,7 +25,6 @@
 
 pub mod attractors;
 pub mod basin;
-mod batch;
 pub mod continuation;
 pub mod cycle_metrics;
 pub mod derivatives;
@@ -33,16 +32,18 @@ mod direction;
 mod ensemble;
 mod extremes;
 pub mod figure;
-mod linear;
+mod memory;
 pub mod missing_strips;
 pub mod monitor;
-pub mod motion;
+mod monitored_batch;
+pub mod motion_kind;
 pub mod orbit;
 pub mod parallel;
-pub mod points;
 mod record_trajectory;
 pub mod run_up;
 pub mod settled;
+mod solve_linear;
+pub mod spread_points;
 mod strokes;
 pub mod sweep;
 mod tolerance;
@@ -55,7 +56,7 @@ pub use continuation::{Branch, BranchLimits, BranchPoint, Continuation, Paramete
 pub use cycle_metrics::CycleMetrics;
 pub use derivatives::OrbitDerivatives;
 pub use direction::Direction;
-pub use motion::MotionKind;
+pub use motion_kind::MotionKind;
 pub use orbit::{LyapunovExponents, Orbit, Regime, StroboscopicMap};
 pub use sweep::{Chain, Plan, SweepStep};
 pub use zone::Zone;
@@ -67,9 +68,9 @@ pub mod internals {
     pub use crate::cycle_metrics::peak_contact_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
-    pub use crate::points::evenly_spread_point;
+    pub use crate::spread_points::evenly_spread_point;
     pub use crate::zone::FrequencyFamily;
-    pub use crate::zone::followed_end::{LONGEST_BRANCH, find_end};
+    pub use crate::zone::end_of_followed_branch::{LONGEST_BRANCH, find_end};
 }
 
 pub use nalgebra;

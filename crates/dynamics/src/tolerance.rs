@@ -14,7 +14,7 @@ pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 pub(crate) const TEST_ROUNDING: f64 = 1e-12;
 /// Share of the rounding error of a residual down to which Newton's method goes on: no step makes a smaller residual smaller.
 pub(crate) const ROUNDING_SHARE: f64 = 0.01;
-/// Distance from a face, or velocity at it, in units of those of the motion, up to which the motion nearly grazes the face.
+/// Distance from a surface, or velocity at it, in units of those of the motion, up to which the motion nearly grazes the surface.
 pub(crate) const NEAR_GRAZING: f64 = 1e-2;
 /// Distance from a stable orbit, in units of the motion's size, within which a state is taken to lie in its basin.
 pub(crate) const STABLE_REACH: f64 = 0.02;

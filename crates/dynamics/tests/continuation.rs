@@ -181,7 +181,9 @@ fn the_other_side_of_the_same_grazing() {
     assert_near(graze.point.parameter, above, MOTION);
     match graze.kind {
         SpecialKind::Grazing(graze) => {
-            assert!(!graze.dies && graze.impacts == 0 && graze.face == SwitchingSurface::Clearance);
+            assert!(
+                !graze.dies && graze.impacts == 0 && graze.surface == SwitchingSurface::Clearance
+            );
         }
         other => panic!("{other:?}"),
     }
@@ -242,7 +244,9 @@ fn inner_surfaces_end_a_branch_too() {
     for end in [&branch.specials[0], &branch.specials[3]] {
         match end.kind {
             SpecialKind::Grazing(graze) => {
-                assert!(graze.face == SwitchingSurface::Stop && graze.dies && graze.impacts == 1);
+                assert!(
+                    graze.surface == SwitchingSurface::Stop && graze.dies && graze.impacts == 1
+                );
             }
             other => panic!("{other:?}"),
         }

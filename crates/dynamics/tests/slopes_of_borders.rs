@@ -120,8 +120,8 @@ fn normals_are_those_of_borders_found_again() {
         let mut kinds = kinds.iter();
         kinds.any(|kind| matches!(kind, BorderKind::Motion(kind) if is(kind)))
     };
-    let touches = |face: SwitchingSurface| {
-        let on = |kind: &BorderKind| matches!(kind, BorderKind::Motion(SpecialKind::Grazing(graze)) if graze.face == face);
+    let touches = |surface: SwitchingSurface| {
+        let on = |kind: &BorderKind| matches!(kind, BorderKind::Motion(SpecialKind::Grazing(graze)) if graze.surface == surface);
         kinds.iter().any(on)
     };
     assert!(has(

@@ -6,7 +6,7 @@ use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::settled::Settling;
-use softstop_dynamics::zone::{BranchEnd, ZoneError, hysteresis, loss_of_stability};
+use softstop_dynamics::zone::{StableBranchEnd, ZoneError, hysteresis, loss_of_stability};
 use softstop_testing::{hertz, kelvin_voigt, preloaded, random, units};
 
 /// A machine by its clearance, its damping and which stop it has.
@@ -95,7 +95,7 @@ fn a_zone_that_is_not_there_is_told_in_the_units_of_the_machine() {
     let error = ZoneError::NoFold {
         from: (0.5 * std::f64::consts::PI).into(),
         to: std::f64::consts::PI.into(),
-        end: BranchEnd::Regime,
+        end: StableBranchEnd::Regime,
     };
     let said = |machine: &Machine| error.clone().in_units_of(machine).to_string();
     assert!(said(&machine).contains("up to excitation.frequency = 3.14159"));

@@ -17,7 +17,7 @@ use softstop_console::report;
 use softstop_console::table::heading;
 use softstop_console::units::Units;
 use softstop_draw::style::{self, bifurcation};
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 
 use crate::page::{fill, in_script};
 use crate::palette::motion_color;

@@ -3,7 +3,7 @@
 use softstop::PhaseKind;
 use softstop_draw::style::{self, motion, phase};
 use softstop_draw::{Layer, Sign};
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::orbit::ImpactPattern;
 use softstop_dynamics::{MotionKind, Regime};
 

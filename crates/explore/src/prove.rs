@@ -181,7 +181,7 @@ fn claim(scene: &Scene, special: &SpecialPoint) -> Option<Claim> {
         SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => None,
         SpecialKind::Grazing(graze) => Some(Claim::Grazing(Touch {
             angle: graze.angle,
-            position: graze.face.surface_position(scene)?,
+            position: graze.surface.surface_position(scene)?,
         })),
     }
 }

@@ -1,7 +1,7 @@
 //! What a page is told.
 
 use serde::Serialize;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::{MotionKind, Regime};
 
 /// An answer: what is named, and numbers too many for a text.

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 use softstop::Machine;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 
 /// After the first 200 drive periods no start of this machine has come within the distance of a return: its multipliers have
 /// modulus 0.981.

@@ -72,7 +72,7 @@ fn bifurcations_are_where_continuation_finds_them() {
                 SpecialKind::Critical(TestFunction::Flip) => Claim::Flip,
                 SpecialKind::Grazing(graze) => Claim::Grazing(Touch {
                     angle: graze.angle,
-                    position: graze.face.surface_position(&scene).expect("a face"),
+                    position: graze.surface.surface_position(&scene).expect("a face"),
                 }),
                 SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => {
                     continue;

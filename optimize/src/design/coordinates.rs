@@ -1,7 +1,7 @@
 //! What the last stages of a search move: the axes that are no catalogues, and the place in the zone.
 
 use softstop::Parameter;
-use softstop_dynamics::points::sobol_point;
+use softstop_dynamics::spread_points::sobol_point;
 
 use super::Design;
 use super::operating_point::SearchPoint;

@@ -9,7 +9,7 @@ use argmin::core::{CostFunction, Error};
 use softstop::internals::budget;
 use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
 use softstop_dynamics::parallel;
-use softstop_dynamics::points::sobol_point;
+use softstop_dynamics::spread_points::sobol_point;
 
 use super::coordinates::Candidate;
 use super::incumbent::{CheckLevel, Incumbent};

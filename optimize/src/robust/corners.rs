@@ -1,6 +1,6 @@
 //! Corners of the box of tolerances.
 
-use softstop_dynamics::points::sobol_point;
+use softstop_dynamics::spread_points::sobol_point;
 
 /// Corners of the box: all of them if they are not more than so many, otherwise those nearest to that many of the points.
 pub(crate) fn corners(dimensions: usize, most: usize) -> Vec<Vec<f64>> {

@@ -6,7 +6,7 @@
 
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::parallel;
-use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
+use softstop_dynamics::spread_points::{SEQUENCE_LENGTH, sobol_point};
 
 /// An estimate and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,7 +8,7 @@ use softstop::MotionError;
 use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
-use softstop_dynamics::points::sobol_point;
+use softstop_dynamics::spread_points::sobol_point;
 use softstop_dynamics::zone::{Loss, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{BranchPoint, Orbit};
 

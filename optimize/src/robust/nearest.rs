@@ -12,7 +12,7 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
-use softstop_dynamics::points::sobol_point;
+use softstop_dynamics::spread_points::sobol_point;
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;

@@ -4,7 +4,7 @@ use crate::spread::{PolynomialModel, Surrogate, critical_normal, free_normal};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
+use softstop_dynamics::spread_points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::{ZoneError, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 

@@ -8,7 +8,7 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
-use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
+use softstop_dynamics::spread_points::{SEQUENCE_LENGTH, sobol_point};
 
 use super::Tolerances;
 use super::screen::Screen;

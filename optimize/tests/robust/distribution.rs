@@ -5,7 +5,7 @@ use softstop::Parameter;
 use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::points::random_coordinate;
+use softstop_dynamics::spread_points::random_coordinate;
 use softstop_dynamics::{CycleMetrics, Orbit};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::problem::{Tolerance, Width};

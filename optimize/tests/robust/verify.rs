@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, SceneError, Units};
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
+use softstop_dynamics::spread_points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
 use softstop_optimize::robust::{

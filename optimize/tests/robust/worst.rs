@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use softstop::Parameter;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::sobol_point;
+use softstop_dynamics::spread_points::sobol_point;
 use softstop_dynamics::{CycleMetrics, Orbit, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::robust::{Tolerances, VerifySettings, Worst, sensitivities, verify, worst};

@@ -11,15 +11,15 @@ mod chaos;
 mod group_logs;
 pub(crate) mod region;
 mod search;
+mod starting_box;
 
 pub use chaos::Chaos;
 pub use region::Region;
-pub(crate) use search::end_states;
-pub use search::{
-    classify_start, find_attractors, find_attractors_until, settle_starts, starting_box,
-};
+pub use search::{classify_start, find_attractors, find_attractors_until, settle_starts};
+pub use starting_box::starting_box;
+pub(crate) use starting_box::states_for_starting_box;
 
-use crate::motion::MotionKind;
+use crate::motion_kind::MotionKind;
 use crate::orbit::{LyapunovExponents, Orbit};
 use crate::wilson_interval::wilson_interval;
 use softstop::{MotionError, Start};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::extremes::extremes;
-use crate::points::{evenly_spread_point, uniform_from_seed};
+use crate::spread_points::{evenly_spread_point, uniform_from_seed};
 use softstop::internals::Scales;
 use softstop::{Dimension, Machine, Scene, Start};
 

@@ -5,7 +5,7 @@ use super::survey::BasinSurvey;
 use crate::attractors::Attractor;
 use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::MemberStatus;
-use crate::motion::MotionKind;
+use crate::motion_kind::MotionKind;
 use crate::orbit::{LyapunovExponents, Orbit, OrbitError};
 
 impl BasinSurvey<'_> {

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
     use crate::attractors::Attractor;
     use crate::basin::{Axis, Grid};
-    use crate::motion::MotionKind;
+    use crate::motion_kind::MotionKind;
     use softstop::Start;
 
     fn entropy_of(cells: [usize; 2], class: impl Fn(usize, usize) -> u16) -> BasinEntropy {

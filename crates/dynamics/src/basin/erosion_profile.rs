@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::establishment::{Establishment, START_SEED};
-use crate::attractors::{Region, end_states, starting_box};
+use crate::attractors::{Region, starting_box, states_for_starting_box};
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
 use crate::parallel;
@@ -24,7 +24,7 @@ pub fn zone_box(
     let own = starting_box(scene, monitor)?;
     let mut all = Vec::new();
     for place in [0.0, 0.5, 0.99] {
-        all.extend(end_states(&zone.scene_at(place), monitor)?);
+        all.extend(states_for_starting_box(&zone.scene_at(place), monitor)?);
     }
     let region = own.widened_to_hold(scene, &all);
     Ok((region, region != own))

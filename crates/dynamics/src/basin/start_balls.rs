@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use crate::attractors::Region;
 use crate::orbit::Orbit;
-use crate::points::evenly_spread_point;
+use crate::spread_points::evenly_spread_point;
 use softstop::Start;
 
 /// Balls of starts of any radius about the state of an orbit, in units of half of each axis of a box of starts.

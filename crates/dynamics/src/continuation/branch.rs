@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Vector2};
 
-use super::bifurcation_curve::MIN_LOOP_POINTS;
 use super::chord_and_cubic::passes_place;
 use super::equations::{CurveNode, StepEnds};
+use super::follow_curve::MIN_LOOP_POINTS;
 use super::grazing_test::GrazingTest;
 use super::half_branch::HalfBranch;
 use super::locate_zero::locate_zero;

@@ -1,4 +1,4 @@
-//! Points of branches, special points among them, and half a branch: how far it is followed one way, and why it ends.
+//! Points of branches, special points among them, and the touch of a grazing orbit.
 
 use std::fmt::Debug;
 
@@ -61,7 +61,7 @@ impl From<TestFunction> for SpecialKind {
     }
 }
 
-/// The touch of an orbit that grazes a face.
+/// The touch of an orbit that grazes a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct GrazingTouch {
@@ -73,8 +73,8 @@ pub struct GrazingTouch {
     /// (p - 1)/n. Otherwise a turning point reaches the surface, and p/n becomes (p + 1)/n.
     pub dies: bool,
     /// The surface that is touched; but for the clearance, the number of impacts stays.
-    pub face: SwitchingSurface,
-    /// True if the orbit is its own mirror image half its period later, and touches both of two stops that are alike: the face
+    pub surface: SwitchingSurface,
+    /// True if the orbit is its own mirror image half its period later, and touches both of two stops that are alike: the surface
     /// is one of them.
     pub is_symmetric: bool,
     /// Crossings of the orbit, the touch left out, or both.

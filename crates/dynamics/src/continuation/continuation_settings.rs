@@ -1,4 +1,4 @@
-//! Settings of a continuation.
+//! Settings of a continuation, and how far it follows a branch.
 
 use std::fmt::Debug;
 
@@ -32,6 +32,15 @@ macro_rules! settings {
             }
         }
     };
+}
+
+/// Limits of a branch: how far it is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BranchLimits {
+    /// Lowest and highest value of the parameter.
+    pub range: (f64, f64),
+    /// Points in each direction.
+    pub points: usize,
 }
 
 settings! {

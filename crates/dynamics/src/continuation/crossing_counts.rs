@@ -2,8 +2,8 @@
 
 use std::fmt::Debug;
 
-use super::SwitchingSurface;
 use super::switching_surface::NearGrazing;
+use super::{BorderCollision, SwitchingSurface};
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
 /// Largest ratio of the speeds at which a mass comes back to a stop and at which it left it, of bounces of one row.
@@ -15,16 +15,16 @@ pub(crate) struct CrossingCounts {
     /// Impacts; each row of bounces that ends in rest counts as one.
     pub impacts: usize,
     /// Crossings of surfaces, impacts on a rigid stop among them.
-    pub surfaces: usize,
+    pub surface_crossings: usize,
     /// Crossings of each [`SwitchingSurface`], in the order of [`SwitchingSurface::ALL`].
-    pub faces: [usize; SwitchingSurface::ALL.len()],
+    pub by_surface: [usize; SwitchingSurface::ALL.len()],
     /// Turns under dry friction.
     pub reversals: usize,
     /// Rows of bounces that end in rest.
     pub rests: usize,
     /// Crossings of other kinds: ends of rest, contacts that cease or begin to press.
     pub others: usize,
-    /// How often the mass is held, by dry friction or at a face.
+    /// How often the mass is held, by dry friction or at a surface.
     pub holds: usize,
     /// Crossings of surfaces and turns at which the force does not jump: an orbit gains and loses them smoothly.
     pub continuous: [usize; 2],
@@ -56,23 +56,28 @@ impl CrossingCounts {
     /// Crossings of surfaces, and turns, at which the force jumps.
     fn jump_counts(&self) -> [usize; 2] {
         [
-            self.surfaces - self.continuous[0],
+            self.surface_crossings - self.continuous[0],
             self.reversals - self.continuous[1],
         ]
     }
 
     /// What happens how often, whether the force jumps there or not: at the end of a range a jump may vanish.
     pub fn event_counts(&self) -> [usize; 4] {
-        [self.impacts, self.surfaces, self.reversals, self.rests]
+        [
+            self.impacts,
+            self.surface_crossings,
+            self.reversals,
+            self.rests,
+        ]
     }
 
     /// Number of crossings of all kinds.
     pub fn crossing_count(&self) -> usize {
-        self.surfaces + self.reversals + self.others
+        self.surface_crossings + self.reversals + self.others
     }
 }
 
-/// The crossings of a motion that count, each with the face that it passes: of a row of ever weaker bounces that ends in
+/// The crossings of a motion that count, each with the surface that it passes: of a row of ever weaker bounces that ends in
 /// rest the first alone, as how many of them are told one by one is the simulation's choice.
 pub(crate) struct CountedCrossings<'a> {
     trajectory: &'a Trajectory,
@@ -100,9 +105,9 @@ impl<'a> CountedCrossings<'a> {
                 let left = MAX_BOUNCE_RATIO * crossing.velocity_after.abs();
                 row = Some((first, speed.min(left)));
             }
-            let face =
+            let surface =
                 passes_surface(crossing).then(|| SwitchingSurface::at_position(scene, position));
-            all.push((crossing, face.flatten()));
+            all.push((crossing, surface.flatten()));
         }
         Self { trajectory, all }
     }
@@ -112,16 +117,16 @@ impl<'a> CountedCrossings<'a> {
         self.all.iter().filter_map(|(it, _)| it.impact_velocity())
     }
 
-    /// The slowest crossing of a face since the mass was at rest.
+    /// The slowest crossing of a surface since the mass was at rest.
     pub fn slowest_crossing(&self) -> Option<NearGrazing> {
         let is_rest = |(it, _): &(&Crossing, _)| it.kind == CrossingKind::Rest;
         let rest = self.all.iter().rposition(is_rest);
         let since = self.all[rest.map_or(0, |rest| rest + 1)..].iter();
-        let touches = since.filter_map(|(crossing, face)| {
+        let touches = since.filter_map(|(crossing, surface)| {
             Some(NearGrazing {
                 time: self.trajectory.clock.time(crossing.instant),
                 amount: crossing.velocity.abs(),
-                face: (*face)?,
+                surface: (*surface)?,
                 reverses: false,
             })
         });
@@ -138,15 +143,16 @@ impl<'a> CountedCrossings<'a> {
         };
         // Where a surface without a jump of the force was passed forward last, and whether the mass has turned since.
         let mut touched = None;
-        for (crossing, face) in &self.all {
+        for (crossing, surface) in &self.all {
             counts.impacts += usize::from(crossing.kind.is_impact());
             match crossing.kind {
                 CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => {
-                    counts.surfaces += 1;
-                    if let Some(face) = face {
-                        counts.faces[*face as usize] += 1;
+                    counts.surface_crossings += 1;
+                    if let Some(surface) = surface {
+                        counts.by_surface[*surface as usize] += 1;
                     }
-                    let continuous = face.is_none_or(|face| face.is_force_continuous(scene));
+                    let continuous =
+                        surface.is_none_or(|surface| surface.is_force_continuous(scene));
                     touched = counts.count_passage(crossing, continuous, touched);
                 }
                 CrossingKind::Reversal => {
@@ -182,18 +188,6 @@ impl CrossingCounts {
         let is_onward = crossing.velocity != 0.0 && !is_back;
         is_onward.then_some((crossing.position, false))
     }
-}
-
-/// What changes in an orbit where its branch ends in a border collision other than a grazing: a rest, a turn under friction, or
-/// the number of surfaces that it crosses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BorderCollision {
-    /// The mass comes to rest, by dry friction or at a face, or ceases to.
-    Rest,
-    /// It turns once more, or once less, under dry friction.
-    Turn,
-    /// It crosses another number of surfaces.
-    Surface,
 }
 
 /// True if a crossing passes a surface or hits a rigid stop.

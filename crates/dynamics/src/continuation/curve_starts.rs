@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
 
-use super::bifurcation_curve::follow_curve;
 use super::continuation_settings::ContinuationSettings;
 use super::family::RestrictedFamily;
+use super::follow_curve::follow_curve;
 use super::impact_section_system::ImpactSectionSystem;
 use super::stroboscopic_shooting::{CriticalShooting, Shooting};
 use super::{

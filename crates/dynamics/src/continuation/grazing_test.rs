@@ -24,7 +24,7 @@ pub(crate) struct GrazingTest {
     rising: Option<NearGrazing>,
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
-    /// Which faces an orbit can graze smoothly.
+    /// Which surfaces an orbit can graze smoothly.
     continuous: [bool; SwitchingSurface::ALL.len()],
     parameter: f64,
     /// True if the orbit is its own mirror image half its period later: touches come in pairs.
@@ -52,7 +52,7 @@ impl GrazingTest {
             .map_or(0, |touch| crossings_with(motion, touch.time));
         Self {
             dying: round.slowest,
-            continuous: SwitchingSurface::ALL.map(|face| face.is_force_continuous(scene)),
+            continuous: SwitchingSurface::ALL.map(|surface| surface.is_force_continuous(scene)),
             rising: nearest_turn(motion, scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
@@ -69,7 +69,7 @@ impl GrazingTest {
     pub fn with_losses_on_step(self, before: &Self, step: f64) -> Self {
         let loss = |(then, now): (Option<NearGrazing>, Option<NearGrazing>)| match (then, now) {
             (Some(then), Some(now))
-                if then.face == now.face && self.is_force_continuous(now.face) =>
+                if then.surface == now.surface && self.is_force_continuous(now.surface) =>
             {
                 (then.amount - now.amount) / step
             }
@@ -94,7 +94,7 @@ impl GrazingTest {
     /// True if a step leaves at least `share` of each distance to a grazing that is not smooth, or more than `near`.
     pub fn keeps_share_of_distances(&self, before: &Self, share: f64, near: f64) -> bool {
         let leaves = |now: Option<NearGrazing>, then: Option<NearGrazing>| match (now, then) {
-            (Some(now), Some(then)) if !self.is_force_continuous(now.face) => {
+            (Some(now), Some(then)) if !self.is_force_continuous(now.surface) => {
                 now.amount >= share * then.amount || now.amount < near * self.speed
             }
             _ => true,
@@ -105,14 +105,14 @@ impl GrazingTest {
     /// True if a crossing with a jump of the force is slower than that (scaled): it is about to die.
     pub fn dies_closer_than(&self, near: f64) -> bool {
         let dies = |touch: NearGrazing| {
-            touch.amount < near * self.speed && !self.is_force_continuous(touch.face)
+            touch.amount < near * self.speed && !self.is_force_continuous(touch.surface)
         };
         self.dying.is_some_and(dies)
     }
 
-    /// True if an orbit can graze a face smoothly.
-    pub fn is_force_continuous(&self, face: SwitchingSurface) -> bool {
-        self.continuous[face as usize]
+    /// True if an orbit can graze a surface smoothly.
+    pub fn is_force_continuous(&self, surface: SwitchingSurface) -> bool {
+        self.continuous[surface as usize]
     }
 
     /// The grazing orbits that Newton's method reaches from the tested one, computed once.
@@ -156,7 +156,7 @@ impl GrazingTest {
             angle: phase + frequency * touch.time,
             impacts: 0,
             dies,
-            face: touch.face,
+            surface: touch.surface,
             is_symmetric: self.is_symmetric,
             crossings,
         };
@@ -206,9 +206,9 @@ pub(crate) fn find_grazing(
 
 /// The turning point of a motion that comes nearest to a surface of the scene ahead of it, if any turns before one.
 fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearGrazing> {
-    let faces = SwitchingSurface::ALL.into_iter();
-    let faces = faces.filter_map(|face| Some((face, face.surface_position(scene)?)));
-    let faces: Vec<(SwitchingSurface, f64)> = faces.collect();
+    let surfaces = SwitchingSurface::ALL.into_iter();
+    let surfaces = surfaces.filter_map(|surface| Some((surface, surface.surface_position(scene)?)));
+    let surfaces: Vec<(SwitchingSurface, f64)> = surfaces.collect();
     let on_arcs = motion.observed_arcs().flat_map(|(arc, elapsed)| {
         let back = arc.course.departure.velocity > 0.0;
         let turns = turning_points(arc.course, elapsed, back);
@@ -223,10 +223,10 @@ fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearGrazing> {
     let touches = on_arcs.chain(reversals);
     let touches = touches.flat_map(|(back, time, position, reverses)| {
         let side = if back { 1.0 } else { -1.0 };
-        faces.iter().map(move |&(face, level)| NearGrazing {
+        surfaces.iter().map(move |&(surface, level)| NearGrazing {
             time,
             amount: side * (level - position),
-            face,
+            surface,
             reverses,
         })
     });

@@ -18,7 +18,7 @@ impl Continuation<'_> {
     ) -> Result<(Vec<(f64, SpecialPoint)>, bool), OrbitError> {
         let way = &to.at - &from.at;
         let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
-        let mut faces = Vec::new();
+        let mut surfaces = Vec::new();
         for node in [from, to] {
             for special in GrazingTest::of_node(&self.shooting, node).grazing_orbits(&self.shooting)
             {
@@ -39,8 +39,8 @@ impl Continuation<'_> {
                 if is_whole(&graze) {
                     return Ok((vec![(share, special)], true));
                 }
-                if !faces.contains(&graze.face) {
-                    faces.push(graze.face);
+                if !surfaces.contains(&graze.surface) {
+                    surfaces.push(graze.surface);
                     found.push((share, special));
                 }
                 // Past a corner the steps that follow find the others.

@@ -34,7 +34,7 @@ impl ImpactSectionOrbit {
     pub fn crossing_counts(&self) -> CrossingCounts {
         CrossingCounts {
             impacts: self.impacts.len(),
-            surfaces: usize::from(self.is_cut),
+            surface_crossings: usize::from(self.is_cut),
             ..CrossingCounts::default()
         }
     }

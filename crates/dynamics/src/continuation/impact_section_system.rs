@@ -47,7 +47,7 @@ pub(crate) struct ImpactSectionSystem<'a, const N: usize> {
     /// Crossings of an orbit between its begin and its last arc, a touch left out.
     crossings: usize,
     /// The surface.
-    pub face: SwitchingSurface,
+    pub surface: SwitchingSurface,
     /// True of orbits that are their own mirror images: they come back to the mirror image of the surface after half of their
     /// periods.
     is_symmetric: bool,
@@ -64,7 +64,7 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
                 true => graze.crossings / 2,
                 false => graze.crossings,
             },
-            face: graze.face,
+            surface: graze.surface,
             is_symmetric: graze.is_symmetric,
             condition: SectionCondition::Touch,
         }
@@ -90,8 +90,8 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
         let Some(entry) = slowest.filter(|_| motion.rests().next().is_none()) else {
             return Ok(None);
         };
-        let face = SwitchingSurface::at_position(&scene, entry.position);
-        let Some(face) = face.filter(|face| face.has_square_root(&scene)) else {
+        let surface = SwitchingSurface::at_position(&scene, entry.position);
+        let Some(surface) = surface.filter(|surface| surface.has_square_root(&scene)) else {
             return Ok(None);
         };
         let is_told = matches!(entry.kind, CrossingKind::Rebound { .. });
@@ -99,7 +99,7 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
             family,
             periods,
             crossings: motion.crossings().count() - usize::from(!is_told),
-            face,
+            surface,
             is_symmetric: false,
             condition: SectionCondition::Impact(test),
         };
@@ -157,7 +157,7 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
     fn velocity(&self, at: &DVector<f64>) -> f64 {
         let [_, speed] = self.family.state_scales();
         let impact = self.critical_test().map(|_| at[1] * speed);
-        impact.map_or(0.0, |velocity| self.face.side_sign() * velocity)
+        impact.map_or(0.0, |velocity| self.surface.side_sign() * velocity)
     }
 
     /// Unknowns of an orbit at the section: its drive angle and what else it has there, then the parameters, scaled.
@@ -181,7 +181,7 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
         if self.is_symmetric && !is_symmetric(&scene) {
             return Err(OrbitError::NotAlike);
         }
-        let position = self.face.surface_position(&scene).ok_or(NO_CROSSING)?;
+        let position = self.surface.surface_position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))
     }
 
@@ -212,7 +212,7 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
             angle: node.at[0],
             impacts: node.here.point.impacts.len(),
             dies: true,
-            face: self.face,
+            surface: self.surface,
             crossings: match self.is_symmetric {
                 true => 2 * self.crossings,
                 false => self.crossings,
@@ -250,7 +250,7 @@ impl<const N: usize> Equations for ImpactSectionSystem<'_, N> {
         let (drift, around, scene, begin) = self.carry_to_section(at)?;
         let tangent = around.motion.tangent();
         let entry = test.and_then(|_| entry_jump(&around.motion, &scene, begin));
-        let is_impact = entry.is_some() && self.face.is_clearance();
+        let is_impact = entry.is_some() && self.surface.is_clearance();
         let told = around.motion.impacts();
         let told = told.map(|it| it.before_impact_velocity);
         let own = is_impact.then_some(begin.y.abs()).into_iter();
@@ -294,7 +294,7 @@ impl<const N: usize> Equations for ImpactSectionSystem<'_, N> {
             let parameters = self.parameters(place);
             Some(self.scene_at(place[0], parameters).ok()?.0)
         };
-        let position = self.face.surface_position(&motion.scene)?;
+        let position = self.surface.surface_position(&motion.scene)?;
         let orbit = (&**motion, Vector2::new(position, 0.0), true);
         let ends = end_derivatives(orbit, (place, 0..place.len()), scene_at)?;
         let drifts = ends

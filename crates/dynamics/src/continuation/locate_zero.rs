@@ -5,8 +5,8 @@ use nalgebra::DVector;
 use super::chord_and_cubic::{CurveCubic, is_beside};
 use super::equations::{CurveNode, Equations, StepEnds};
 use super::newton_corrector::{Accuracy, border_matrix, correct_with_columns, jacobian_columns};
-use crate::linear::solve_linear;
 use crate::orbit::OrbitError;
+use crate::solve_linear::solve_linear;
 use crate::tolerance::{DIFFERENCE_WIDTH, TEST_ROUNDING};
 use softstop::internals::narrow_root;
 

@@ -1,12 +1,12 @@
-//! Solution curves of any system with one unknown more than equations, by pseudo-arclength continuation (Keller 1977).
+//! Newton's method for a point of a solution curve (the corrector), the curve's tangent, and the Jacobian by differences.
 
 use std::fmt::Debug;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::{CurveNode, Equations, Evaluation};
-use crate::linear::solve_linear;
 use crate::orbit::OrbitError;
+use crate::solve_linear::solve_linear;
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, ROUNDING_SHARE};
 
 /// Newton steps of a correction after which each must halve the residual.

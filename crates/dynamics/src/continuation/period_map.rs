@@ -20,7 +20,7 @@ use softstop::{
 pub(crate) struct PeriodMap {
     /// The unknowns that it belongs to.
     pub place: DVector<f64>,
-    /// Where the map begins: the state, or the face of a rigid stop for a state beyond it.
+    /// Where the map begins: the state, or the surface of a rigid stop for a state beyond it.
     pub start: Vector2<f64>,
     /// Exact Jacobian of the map.
     pub monodromy: Monodromy,
@@ -121,7 +121,7 @@ pub(super) fn state_after_periods(
     Ok(motion.state().into())
 }
 
-/// A state, moved to the face of a rigid stop from beyond or from rest near it, so that the map stays continuous.
+/// A state, moved to the surface of a rigid stop from beyond or from rest near it, so that the map stays continuous.
 pub(crate) fn clamp_to_walls(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
     let (lowest, highest) = scene.reach();
     let scales = scene.scales();

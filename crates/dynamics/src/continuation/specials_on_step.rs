@@ -13,7 +13,7 @@ use crate::orbit::OrbitError;
 use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::internals::highest_point;
 
-/// Crossings of a face that come or go with one touch at most: onto it and back.
+/// Crossings of a surface that come or go with one touch at most: onto it and back.
 const MAX_TOUCH_CROSSINGS: usize = 2;
 /// Share of a step over which a test is taken to be straight.
 const STRAIGHT_SHARE: f64 = 0.02;
@@ -113,19 +113,19 @@ impl Continuation<'_> {
     ) -> Result<Vec<(f64, SpecialPoint)>, OrbitError> {
         let counts = [from, to].map(|node| node.here.point.counts);
         let [a, b] = counts.map(|counts| counts.crossing_count());
-        let [before, after] = counts.map(|counts| (counts.faces, counts.reversals));
+        let [before, after] = counts.map(|counts| (counts.by_surface, counts.reversals));
         if a == b && before == after {
             return Ok(Vec::new());
         }
-        let touches_of_faces = SwitchingSurface::ALL.map(|face| {
-            let [a, b] = [before, after].map(|(faces, _)| faces[face as usize]);
+        let touches_of_surfaces = SwitchingSurface::ALL.map(|surface| {
+            let [a, b] = [before, after].map(|(by_surface, _)| by_surface[surface as usize]);
             a.abs_diff(b).div_ceil(MAX_TOUCH_CROSSINGS)
         });
-        let touches: usize = touches_of_faces.iter().sum();
+        let touches: usize = touches_of_surfaces.iter().sum();
         let is_whole = |graze: &GrazingTouch| {
             let own = match graze.is_symmetric {
                 true => touches,
-                false => touches_of_faces[graze.face as usize],
+                false => touches_of_surfaces[graze.surface as usize],
             };
             own == touches
                 && touches <= 1 + usize::from(graze.is_symmetric)

@@ -1,11 +1,11 @@
-//! Faces: the surfaces that an orbit may graze, and how near it is to touching one.
+//! The surfaces at which the law of force changes, which an orbit may graze, and how near it is to touching one.
 
 use std::fmt::Debug;
 
 use crate::tolerance::ROUNDING;
 use softstop::{Parameter, Scene, Stop};
 
-/// A face: a surface at which a scene's law of force changes.
+/// A surface: a surface at which a scene's law of force changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SwitchingSurface {
     /// The clearance: an impact.
@@ -20,7 +20,7 @@ pub enum SwitchingSurface {
     Below,
 }
 
-/// Arrays of one value for each face are indexed by `face as usize`: [`SwitchingSurface::ALL`] is in the order of the variants.
+/// Arrays of one value for each surface are indexed by `surface as usize`: [`SwitchingSurface::ALL`] is in the order of the variants.
 const _: () = {
     let mut index = 0;
     while index < SwitchingSurface::ALL.len() {
@@ -30,7 +30,7 @@ const _: () = {
 };
 
 impl SwitchingSurface {
-    /// All faces, in the order of the variants.
+    /// All surfaces, in the order of the variants.
     pub const ALL: [Self; 5] = [
         Self::Clearance,
         Self::Pierced,
@@ -39,7 +39,7 @@ impl SwitchingSurface {
         Self::Below,
     ];
 
-    /// Position of the face in m, if the scene has it.
+    /// Position of the surface in m, if the scene has it.
     pub fn surface_position(self, scene: &Scene) -> Option<f64> {
         match self {
             Self::Clearance => Some(scene.clearance),
@@ -52,17 +52,17 @@ impl SwitchingSurface {
         }
     }
 
-    /// 1 where a motion meets the face upwards, -1 where downwards.
+    /// 1 where a motion meets the surface upwards, -1 where downwards.
     pub(crate) fn side_sign(self) -> f64 {
         if self == Self::Below { -1.0 } else { 1.0 }
     }
 
-    /// True if meeting the face is an impact.
+    /// True if meeting the surface is an impact.
     pub(crate) fn is_clearance(self) -> bool {
         matches!(self, Self::Clearance | Self::Below)
     }
 
-    /// True if an orbit can graze the face without losing its derivative: the force does not jump there.
+    /// True if an orbit can graze the surface without losing its derivative: the force does not jump there.
     pub(crate) fn is_force_continuous(self, scene: &Scene) -> bool {
         match (self, scene.piercing) {
             (Self::Clearance, Some(strip)) => strip.thickness > 0.0,
@@ -84,7 +84,7 @@ impl SwitchingSurface {
         }
     }
 
-    /// True if a weak impact at the face has a square root, and a motion may begin there: at a rigid stop, and where
+    /// True if a weak impact at the surface has a square root, and a motion may begin there: at a rigid stop, and where
     /// the force jumps against the mass or with it but for the strip's edges.
     pub(crate) fn has_square_root(self, scene: &Scene) -> bool {
         match self {
@@ -100,26 +100,27 @@ impl SwitchingSurface {
         }
     }
 
-    /// The face at a position, to rounding.
+    /// The surface at a position, to rounding.
     pub(crate) fn at_position(scene: &Scene, position: f64) -> Option<Self> {
         let near = ROUNDING * (scene.scales().length + position.abs());
-        let stands = |face: &Self| {
-            face.surface_position(scene)
+        let stands = |surface: &Self| {
+            surface
+                .surface_position(scene)
                 .is_some_and(|level| (level - position).abs() < near)
         };
         Self::ALL.into_iter().find(stands)
     }
 }
 
-/// Where an orbit comes near to grazing a face.
+/// Where an orbit comes near to grazing a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NearGrazing {
     /// Time in s.
     pub time: f64,
-    /// Velocity in m/s of a crossing, or distance in m of a turning point from the face ahead.
+    /// Velocity in m/s of a crossing, or distance in m of a turning point from the surface ahead.
     pub amount: f64,
-    /// The face.
-    pub face: SwitchingSurface,
+    /// The surface.
+    pub surface: SwitchingSurface,
     /// Dry friction turns its sign there.
     pub reverses: bool,
 }

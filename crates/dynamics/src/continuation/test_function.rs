@@ -1,4 +1,4 @@
-//! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points, and coefficients of normal forms.
+//! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
 use std::fmt::Debug;
 

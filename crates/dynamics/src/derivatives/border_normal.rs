@@ -267,7 +267,7 @@ fn grazing_rates(
         return Err(missing());
     }
     let scene = scene.clone().at_phase(graze.angle)?;
-    let place = graze.face.surface_position(&scene).ok_or_else(missing)?;
+    let place = graze.surface.surface_position(&scene).ok_or_else(missing)?;
     let start = Vector2::new(place, 0.0);
     let motion =
         LastArc::carry_past(&scene, start, (graze.crossings, Clock::at_cycle(periods)))?.motion;

@@ -16,9 +16,9 @@ use softstop::{
 /// Work that a passage through contact may cost, in scan windows, 4096 crossings: then the mass stays.
 const MAX_CONTACT_WORK: u64 = 1 << 18;
 
-/// The face at the clearance, with its scene: where a passage through contact begins and ends.
+/// The surface at the clearance, with its scene: where a passage through contact begins and ends.
 #[derive(Debug, Clone)]
-pub(super) struct ContactFace {
+pub(super) struct ClearanceSurface {
     pub scene: CheckedScene,
     pub phases: Shared<Phases>,
     pub clock: Clock,
@@ -43,8 +43,8 @@ pub(super) struct ContactPassage<T = Tangent> {
     pub course: ArcSolution,
 }
 
-impl ContactFace {
-    /// The face of a scene; none without a surface at the clearance, or with one below that the mass may meet.
+impl ClearanceSurface {
+    /// The surface at the clearance of a scene; none without a surface at the clearance, or with one below that the mass may meet.
     pub(super) fn new(scene: &CheckedScene) -> Option<Self> {
         let surfaces = scene.phases().surfaces.iter();
         let mut clearances = surfaces.filter(|surface| surface.is_clearance);
@@ -60,20 +60,20 @@ impl ContactFace {
         })
     }
 
-    /// Position of the face in m.
+    /// The clearance in m.
     pub(super) fn surface_position(&self) -> f64 {
         self.surface.position
     }
 
-    /// Acceleration in m/s^2 of the mass in a phase at the face, at an instant with a velocity in m/s.
-    fn acceleration_at_face(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
+    /// Acceleration in m/s^2 of the mass in a phase at the clearance, at an instant with a velocity in m/s.
+    fn acceleration_at_clearance(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
         let forcing = self.phases.amplitude * self.clock.drive(at).cos;
         self.phases
             .acceleration(phase, self.surface_position(), velocity, forcing)
     }
 
-    /// The free motion from the face, at an instant with a velocity in m/s, as if there were no stop.
-    fn free_motion_from_face(&self, at: Instant, velocity: f64) -> ArcSolution {
+    /// The free motion from the clearance, at an instant with a velocity in m/s, as if there were no stop.
+    fn free_motion_from_clearance(&self, at: Instant, velocity: f64) -> ArcSolution {
         let free = &self.phases[PhaseId::FREE];
         let departure = Departure {
             position: self.surface_position(),
@@ -85,7 +85,7 @@ impl ContactFace {
         ArcSolution::new(&free.flow, departure)
     }
 
-    /// A motion that begins at the face, at an instant with a velocity in m/s.
+    /// A motion that begins at the clearance, at an instant with a velocity in m/s.
     pub(super) fn release(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
         let start = Start::new(self.surface_position(), velocity);
         Motion::new(&self.scene, at, start)
@@ -125,7 +125,7 @@ impl ContactFace {
         };
         (velocity > 0.0).then_some(())?;
         if velocity_after < 0.0 {
-            let course = self.free_motion_from_face(at, velocity_after);
+            let course = self.free_motion_from_clearance(at, velocity_after);
             return Some(passage(Some(PhaseId::FREE), T::default(), at, course));
         }
         let mut motion = self.release(at, velocity_after).ok()?;
@@ -157,8 +157,9 @@ impl ContactFace {
     /// Acceleration in m/s^2 right after the impact that a passage begins with, at an instant, in the phase that follows it: in
     /// contact, free after a rebound, 0 if the mass rests.
     pub(super) fn acceleration_after<T>(&self, at: Instant, passage: &ContactPassage<T>) -> f64 {
-        let at_face = |phase| self.acceleration_at_face(phase, at, passage.velocity_after);
-        passage.phase.map_or(0.0, at_face)
+        let at_clearance =
+            |phase| self.acceleration_at_clearance(phase, at, passage.velocity_after);
+        passage.phase.map_or(0.0, at_clearance)
     }
 
     /// The saltation matrix of the impact, at an instant with a velocity in m/s, that a passage begins with.
@@ -174,7 +175,7 @@ impl ContactFace {
             position: self.surface_position(),
             velocity,
             velocity_after: passage.velocity_after,
-            acceleration_before: self.acceleration_at_face(PhaseId::FREE, at, velocity),
+            acceleration_before: self.acceleration_at_clearance(PhaseId::FREE, at, velocity),
             acceleration_after: self.acceleration_after(at, passage),
         })
     }

@@ -2,8 +2,8 @@
 
 use std::slice::from_ref;
 
+use super::all_single_impact_orbits::single_impact_orbits;
 use super::fixed_point_search::FixedPointSearch;
-use super::single_impact_search::single_impact_orbits;
 use super::trial_motions::TrialMotions;
 use super::{Orbit, OrbitError};
 use crate::monitor::{Monitor, unmonitored};

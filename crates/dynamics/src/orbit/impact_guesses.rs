@@ -36,9 +36,9 @@ pub(super) fn guess_impacts(
     Ok(guesses)
 }
 
-/// The nearest miss of the face: the distance d by which a turn misses it, in m, with the time in s and the speed in m/s of an
-/// impact on a face that stood 2 d nearer.
-fn nearest_miss(motion: &Trajectory, face: f64) -> Option<(f64, TimedImpact)> {
+/// The nearest miss of the clearance: the distance d by which a turn misses it, in m, with the time in s and the speed in m/s of an
+/// impact at a clearance 2 d smaller.
+fn nearest_miss(motion: &Trajectory, clearance: f64) -> Option<(f64, TimedImpact)> {
     let free = motion
         .observed_arcs()
         .filter(|(arc, _)| arc.kind == PhaseKind::Free);
@@ -47,7 +47,7 @@ fn nearest_miss(motion: &Trajectory, face: f64) -> Option<(f64, TimedImpact)> {
         back.map(move |turn| {
             let forcing = arc.course.flow.amplitude * arc.drive(turn.elapsed).cos;
             let acceleration = arc.course.flow.acceleration(turn.position, 0.0, forcing);
-            let depth = face - turn.position;
+            let depth = clearance - turn.position;
             let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
             let at = arc.clock.after(arc.start, turn.elapsed);
             (depth, (arc.clock.time(at), speed))

@@ -1,5 +1,6 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
+mod all_single_impact_orbits;
 mod contact_passage;
 mod deflation;
 mod error;
@@ -7,7 +8,6 @@ mod find_hardest_single_impact;
 mod find_periodic;
 mod fixed_point_search;
 mod free_frequency;
-mod harder_single_impact_orbit;
 mod impact_guesses;
 mod impact_lattice;
 mod impact_pattern;
@@ -19,15 +19,17 @@ mod orbit_of_segments;
 mod periodic_orbit;
 pub(crate) mod recurrence;
 pub(crate) mod regime;
-mod single_impact_search;
+mod search_harder_single_impact;
 mod smallest_period;
 mod stroboscopic_map;
 mod trial_motions;
 
+pub(crate) use all_single_impact_orbits::{
+    single_impact_orbits_about_frequency, single_impact_orbits_near_impact,
+};
 pub use error::OrbitError;
 pub use find_hardest_single_impact::{find, find_with_monitor};
 pub(crate) use find_hardest_single_impact::{find_batch, find_with_known_orbits};
-pub(crate) use harder_single_impact_orbit::harder_single_impact_orbit;
 pub use impact_pattern::{ImpactCount, ImpactPattern};
 pub(crate) use lyapunov_exponents::LYAPUNOV_BATCH_PERIODS;
 pub use lyapunov_exponents::LyapunovExponents;
@@ -35,9 +37,7 @@ pub use monodromy::{Monodromy, multipliers};
 pub use newton_fixed_point::find_fixed_point;
 pub use periodic_orbit::Orbit;
 pub use regime::Regime;
-pub(crate) use single_impact_search::{
-    single_impact_orbits_about_frequency, single_impact_orbits_near_impact,
-};
+pub(crate) use search_harder_single_impact::harder_single_impact_orbit;
 pub(crate) use smallest_period::smallest_period;
 pub use stroboscopic_map::{MapApplication, StroboscopicMap};
 

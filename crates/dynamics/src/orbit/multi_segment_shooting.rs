@@ -6,16 +6,16 @@
 //! square root (Ghosh and Simpson, arXiv 2510.16218). From impact to impact there is none: the unknowns are
 //! the time t and the before-impact velocity v of each impact, and what has to vanish is how far the free motion
 //! after each contact, followed to the time of the next impact as if there were no stop, is then from
-//! the face, and its velocity from the next v. All of it is smooth in t and v down to v = 0: contact
+//! the clearance, and its velocity from the next v. All of it is smooth in t and v down to v = 0: contact
 //! lasts about 2 v / |a|, and its own tangent takes the factor 1/v of the saltation away again. Nothing is
-//! linearised about the face, so no saltation is wrong for a weak impact (Chawla et al., arXiv 2506.18379).
+//! linearised about the clearance, so no saltation is wrong for a weak impact (Chawla et al., arXiv 2506.18379).
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use super::contact_passage::{ContactFace, ContactPassage};
+use super::contact_passage::{ClearanceSurface, ContactPassage};
 use super::deflation::deflation_factor;
 use super::{Orbit, OrbitError, TimedImpact};
-use crate::linear::solve_linear;
+use crate::solve_linear::solve_linear;
 use crate::tolerance::ROUNDING_SHARE;
 use softstop::internals::Scales;
 use softstop::{CheckedScene, Clock};
@@ -36,7 +36,7 @@ pub(super) type ImpactUnknowns = DVector<f64>;
 /// Shooting from impact to impact for a periodic orbit of a scene over a number of drive periods.
 pub(super) struct MultiSegmentShooting {
     scales: Scales,
-    pub(super) face: ContactFace,
+    pub(super) clearance: ClearanceSurface,
     pub(super) periods: u64,
 }
 
@@ -78,17 +78,17 @@ impl From<ShootingFailure> for OrbitError {
 impl MultiSegmentShooting {
     /// The shooting for orbits of a scene; none if the scene has no stop.
     pub(super) fn new(scene: &CheckedScene, periods: u64) -> Option<Self> {
-        let face = ContactFace::new(scene)?;
+        let clearance = ClearanceSurface::new(scene)?;
         Some(Self {
             scales: scene.scales(),
-            face,
+            clearance,
             periods,
         })
     }
 
     /// The drive periods of the orbit, in s.
     pub(super) fn span(&self) -> f64 {
-        self.face.clock.time(Clock::at_cycle(self.periods))
+        self.clearance.clock.time(Clock::at_cycle(self.periods))
     }
 
     /// The orbit with as many impacts as the guess has, to which the shooting leads from there, away from `deflated` ones.
@@ -138,7 +138,7 @@ impl MultiSegmentShooting {
                 break;
             };
             step.neg_mut();
-            let period = self.face.clock.period();
+            let period = self.clearance.clock.period();
             step *= deflation_factor((at[0], at[1]), (step[0], step[1]), deflated, period);
             let Some((share, next, tried)) = self.take_step(&at, &step) else {
                 break;
@@ -164,18 +164,22 @@ impl MultiSegmentShooting {
 
     /// What a motion with this impact alone is off by at the next one: position and velocity, scaled.
     pub(super) fn return_gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
-        let clock = &self.face.clock;
+        let clock = &self.clearance.clock;
         let from = clock.instant(time);
-        let passage: ContactPassage<()> = self.face.pass_contact(from, velocity, self.span())?;
+        let passage: ContactPassage<()> =
+            self.clearance.pass_contact(from, velocity, self.span())?;
         let to = clock.instant(time + self.span());
         let flight = clock.elapsed(passage.free_from, to);
         let gap = |(position, arriving)| self.scaled_impact_gap((position, arriving), velocity);
         (flight > 0.0).then(|| gap(passage.course.state_at(flight, clock.drive(to))).into())
     }
 
-    /// What a state at the face is off by where an impact of a velocity should be: position and velocity, scaled.
+    /// What a state at the clearance is off by where an impact of a velocity should be: position and velocity, scaled.
     fn scaled_impact_gap(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
-        let gap = Vector2::new(position - self.face.surface_position(), velocity - expected);
+        let gap = Vector2::new(
+            position - self.clearance.surface_position(),
+            velocity - expected,
+        );
         self.scales.state(&gap)
     }
 
@@ -184,7 +188,8 @@ impl MultiSegmentShooting {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = &self.scales;
-        let state = self.face.surface_position().abs() / scales.length + fastest / scales.speed();
+        let state =
+            self.clearance.surface_position().abs() / scales.length + fastest / scales.speed();
         let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
         let columns = evaluation.jacobian.column_iter().zip(units);
         let entries =
@@ -203,7 +208,7 @@ impl MultiSegmentShooting {
         let mut share = 1.0f64;
         for (index, (value, change)) in at.iter().zip(step).enumerate() {
             let (most, taken) = if index % 2 == 0 {
-                (MAX_STEP_SHARE * self.face.clock.period(), change.abs())
+                (MAX_STEP_SHARE * self.clearance.clock.period(), change.abs())
             } else {
                 ((1.0 - MAX_STEP_SHARE) * value, -change)
             };
@@ -234,11 +239,11 @@ impl MultiSegmentShooting {
         for segment in 0..count {
             let next = (segment + 1) % count;
             let around = if next <= segment { self.span() } else { 0.0 };
-            let clock = &self.face.clock;
+            let clock = &self.clearance.clock;
             let (from, to) = (clock.instant(at[2 * segment]), at[2 * next] + around);
             let longest = to - at[2 * segment];
             let before = at[2 * segment + 1];
-            let passing: ContactPassage = self.face.pass_contact(from, before, longest)?;
+            let passing: ContactPassage = self.clearance.pass_contact(from, before, longest)?;
             let to = clock.instant(to);
             let flight = clock.elapsed(passing.free_from, to);
             if flight <= 0.0 {
@@ -261,7 +266,7 @@ impl MultiSegmentShooting {
             let after = passing.velocity_after;
             add(
                 column,
-                through * -Vector2::new(after, self.face.acceleration_after(from, &passing)),
+                through * -Vector2::new(after, self.clearance.acceleration_after(from, &passing)),
             );
             add(column + 1, through * Vector2::new(0.0, after / before));
             add(ahead, Vector2::new(velocity, acceleration));

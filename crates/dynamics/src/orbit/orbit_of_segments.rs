@@ -20,7 +20,7 @@ impl MultiSegmentShooting {
         evaluation: &ShootingEvaluation,
     ) -> Result<Orbit, OrbitError> {
         self.refuse_flights_through_stop(at, evaluation)?;
-        let clock = self.face.clock;
+        let clock = self.clearance.clock;
         let mut impacts: Vec<(f64, f64, &ContactPassage)> = evaluation
             .passages
             .iter()
@@ -38,7 +38,7 @@ impl MultiSegmentShooting {
         // The factor by the saltation at the impact of a contact.
         let entry = |&(time, velocity, passing): &(f64, f64, &ContactPassage)| {
             let matrix = self
-                .face
+                .clearance
                 .entry_saltation(clock.instant(time), velocity, passing);
             Monodromy::with_determinant(matrix, matrix.determinant())
         };
@@ -66,15 +66,17 @@ impl MultiSegmentShooting {
             instant: clock.instant(time),
             before_impact_velocity: velocity,
         };
-        let map = StroboscopicMap::new(&self.face.scene, self.periods);
+        let map = StroboscopicMap::new(&self.clearance.scene, self.periods);
         Ok(Orbit {
-            scene: self.face.scene.clone(),
+            scene: self.clearance.scene.clone(),
             periods: self.periods,
             position: state.x,
             velocity: state.y,
             impacts: impacts.iter().map(touch).collect(),
             rests: Vec::new(),
-            max_position: map.max_position(state)?.max(self.face.surface_position()),
+            max_position: map
+                .max_position(state)?
+                .max(self.clearance.surface_position()),
             monodromy: Monodromy::product(&factors),
             damping_integral: lost + last.course.flow.damping() * (self.span() - touched),
         })
@@ -91,8 +93,11 @@ impl MultiSegmentShooting {
             let next = (segment + 1) % count;
             let around = if next <= segment { self.span() } else { 0.0 };
             let flight = at[2 * next] + around - at[2 * segment] - passing.lasting;
-            let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
-            let early = flight - IMPACT_TIME_TOLERANCE * self.face.clock.period();
+            let (course, guards) = (
+                &passing.course,
+                &self.clearance.phases[PhaseId::FREE].guards,
+            );
+            let early = flight - IMPACT_TIME_TOLERANCE * self.clearance.clock.period();
             if let NextEvent::Crossing(found) =
                 first_crossing(course, guards, course.start_node(), flight)
                 && found.elapsed < early
@@ -109,8 +114,8 @@ impl MultiSegmentShooting {
         time: f64,
         last: &ContactPassage,
     ) -> Result<(Vector2<f64>, Monodromy), OrbitError> {
-        let from = self.face.clock.instant(time);
-        let mut motion = self.face.release(from, last.velocity_after)?;
+        let from = self.clearance.clock.instant(time);
+        let mut motion = self.clearance.release(from, last.velocity_after)?;
         let tangent = advance_with_tangent(&mut motion, Clock::at_cycle(self.periods))?;
         Ok((motion.state().into(), Monodromy::from(&tangent)))
     }
@@ -122,14 +127,14 @@ impl MultiSegmentShooting {
         free: f64,
         state: Vector2<f64>,
     ) -> Result<Monodromy, OrbitError> {
-        let flow = self.face.phases[PhaseId::FREE].flow;
+        let flow = self.clearance.phases[PhaseId::FREE].flow;
         if free >= 0.0 {
             return Ok(flight_factor(&flow, time));
         }
-        let mut motion = self.face.scene.motion(state.into())?;
+        let mut motion = self.clearance.scene.motion(state.into())?;
         // The mass may leave a little later than it did by the contact that began before.
         let between = 0.5 * (time - free);
-        let tangent = advance_with_tangent(&mut motion, self.face.clock.instant(between))?;
+        let tangent = advance_with_tangent(&mut motion, self.clearance.clock.instant(between))?;
         let flight = flight_factor(&flow, time - between);
         Ok(Monodromy::product(&[Monodromy::from(&tangent), flight]))
     }

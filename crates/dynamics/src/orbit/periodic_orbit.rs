@@ -1,4 +1,4 @@
-//! A periodic motion of any regime, stable or not, and guesses of the impacts that one near a state may have.
+//! A periodic motion of any regime, stable or not.
 
 use std::cmp::Ordering;
 

@@ -1,4 +1,4 @@
-//! The stroboscopic map, from drive angle to the same drive angle whole periods later, and its fixed points by Newton's method.
+//! The stroboscopic map, from a state at a drive angle to the state at the same drive angle whole periods later.
 
 use nalgebra::{Matrix2, Vector2};
 

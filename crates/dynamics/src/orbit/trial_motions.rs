@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use crate::batch::follow_batch;
 use crate::monitor::Monitor;
+use crate::monitored_batch::follow_batch;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
 use softstop_lanes::{BatchObserver, LoweredMachine};

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::basin::{BasinTest, bring_to_section};
 use crate::cycle_metrics::peak_stop_force;
 use crate::monitor::{Monitor, stop_if};
-use crate::motion::MotionKind;
+use crate::motion_kind::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
 use crate::parallel;
 use crate::sweep::{Chain, Plan};
@@ -233,7 +233,7 @@ fn try_way(
     }
 }
 
-/// The state before the drive is switched on: at the suspension's rest, or at the face of a stop that stands before it.
+/// The state before the drive is switched on: at the suspension's rest, or at a stop that stands before it.
 fn rest_state(scene: &Scene) -> Start {
     let below = scene.below.as_ref();
     let lowest = below.map_or(f64::NEG_INFINITY, |below| -below.clearance);

@@ -3,7 +3,7 @@
 use std::f64::consts::LN_10;
 
 use crate::ensemble::Member;
-use crate::motion::MotionKind;
+use crate::motion_kind::MotionKind;
 use crate::orbit::recurrence::{find_settled_period, motion_size, returns_to_rounding};
 use crate::orbit::{ImpactPattern, Orbit, Regime, StroboscopicMap, smallest_period};
 use crate::tolerance::SAME;
@@ -169,7 +169,7 @@ impl SettledMotion {
         if regime.impacts == 0 && is_slow() && application()?.is_at_rest(&self.from, frequency) {
             return Ok(Some(MotionKind::Rest));
         }
-        // Nothing chatters where nothing rebounds from a face.
+        // Nothing chatters where nothing rebounds from a surface.
         let (lowest, highest) = scene.reach();
         let rests = match lowest.is_finite() || highest.is_finite() {
             true => application()?.rests,

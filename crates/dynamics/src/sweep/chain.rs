@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::direction::Direction;
-use crate::motion::MotionKind;
+use crate::motion_kind::MotionKind;
 use crate::settled::SettledMotion;
 use crate::tolerance::SIMILAR;
 use softstop::{CheckedScene, Machine, MotionError, Start};

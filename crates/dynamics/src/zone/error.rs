@@ -45,7 +45,7 @@ pub enum ZoneError {
         /// Frequency up to which it was followed.
         to: StatedFrequency,
         /// Why no farther.
-        end: BranchEnd,
+        end: StableBranchEnd,
     },
     /// There is no stable z = 1 motion at the frequencies at which it is looked for.
     #[error("no stable z = 1 motion found between {from} and {to}")]
@@ -95,7 +95,7 @@ impl From<SceneError> for ZoneError {
 /// Why a stable branch is followed no farther.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum BranchEnd {
+pub enum StableBranchEnd {
     /// No motion with one impact of its kind goes on.
     Regime,
     /// It lies below the grazing boundary.
@@ -106,7 +106,7 @@ pub enum BranchEnd {
     Budget,
 }
 
-impl Display for BranchEnd {
+impl Display for StableBranchEnd {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Regime => "it ends otherwise than by a fold",

@@ -6,12 +6,12 @@
 //! motions come back (48 periods, 10,400 each). The search for the next crossing, with its proof, is 40 % of a period with
 //! its Jacobian.
 
-use super::end::{Loss, ZoneEnd};
-use super::followed_end::{LONGEST_BRANCH, follow_to_end};
+use super::all_stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
+use super::end_of_followed_branch::{LONGEST_BRANCH, follow_to_end};
 use super::stable_range::StableRange;
-use super::stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
+use super::zone_end::{Loss, ZoneEnd};
 use super::{
-    BranchEnd, FrequencyFamily, Zone, ZoneError, ZoneKind, grazing_frequencies, refuse_below,
+    FrequencyFamily, StableBranchEnd, Zone, ZoneError, ZoneKind, grazing_frequencies, refuse_below,
 };
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, TestFunction};
 use crate::monitor::{Monitor, stop_if, unmonitored};
@@ -220,10 +220,10 @@ fn no_fold_error(from: f64, branch: &[BranchPoint]) -> ZoneError {
         };
     }
     let end = match last {
-        _ if last < from => BranchEnd::Below,
-        _ if last > FOLLOWED_RANGE.1 * from => BranchEnd::Range,
-        _ if branch.len() >= LONGEST_BRANCH => BranchEnd::Budget,
-        _ => BranchEnd::Regime,
+        _ if last < from => StableBranchEnd::Below,
+        _ if last > FOLLOWED_RANGE.1 * from => StableBranchEnd::Range,
+        _ if branch.len() >= LONGEST_BRANCH => StableBranchEnd::Budget,
+        _ => StableBranchEnd::Regime,
     };
     ZoneError::NoFold {
         from: from.into(),

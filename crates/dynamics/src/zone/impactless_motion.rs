@@ -1,4 +1,4 @@
-//! The grazing of the motion without impacts, g0.
+//! The motion without impacts: its amplitude, and the frequencies at which it grazes the stop (g0).
 
 use std::convert::Infallible;
 

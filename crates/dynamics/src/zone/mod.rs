@@ -2,22 +2,22 @@
 //! (g0, in closed form), the hysteresis zone from there to the fold s_SN, the flip s_PD (Peterka 2003,
 //! section 3); and all ranges of stable z = 1, wherever they are. In the scene's own units, with any stop.
 
-mod end;
+mod all_stable_ranges;
+pub(crate) mod end_of_followed_branch;
 mod error;
-mod find;
-pub(crate) mod followed_end;
+mod find_zones;
 mod frequency_family;
 mod hysteresis_zone;
 mod impactless_motion;
 mod loss_of_stability;
 mod single_impact_zone;
 mod stable_range;
-mod stable_ranges;
-mod zone_ranges;
+mod stable_ranges_of_zone;
+mod zone_end;
 
-pub use end::{Loss, ZoneEnd};
-pub use error::{BranchEnd, StatedFrequency, ZoneError};
-pub use find::{find, find_among, find_with_monitor, find_zones};
+pub use all_stable_ranges::{stable_ranges, stable_ranges_with_monitor};
+pub use error::{StableBranchEnd, StatedFrequency, ZoneError};
+pub use find_zones::{find, find_among, find_with_monitor, find_zones};
 pub use frequency_family::FrequencyFamily;
 pub use hysteresis_zone::{
     hysteresis, hysteresis_and_stable_ranges, hysteresis_batch, hysteresis_with_monitor,
@@ -26,7 +26,7 @@ pub use impactless_motion::{free_amplitude, grazing_frequencies};
 pub use loss_of_stability::{StabilityBounds, find_end_along, loss_of_stability};
 pub use single_impact_zone::single_impact;
 pub use stable_range::StableRange;
-pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
+pub use zone_end::{Loss, ZoneEnd};
 
 use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};

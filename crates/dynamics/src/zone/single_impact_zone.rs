@@ -1,8 +1,8 @@
 //! Single-impact zones: all stable z = 1 motions on one branch, below g0 as well.
 
-use super::followed_end::{LONGEST_BRANCH, find_end};
+use super::all_stable_ranges::FOLLOWED_RANGE;
+use super::end_of_followed_branch::{LONGEST_BRANCH, find_end};
 use super::hysteresis_zone::follow_upward;
-use super::stable_ranges::FOLLOWED_RANGE;
 use super::{FrequencyFamily, Zone, ZoneError, ZoneKind, grazing_frequencies, refuse_below};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use nalgebra::{Vector2, Vector4};
 
-use super::end::{Loss, ZoneEnd};
+use super::zone_end::{Loss, ZoneEnd};
 use super::{FrequencyFamily, Zone};
 use crate::continuation::{
     Branch, BranchEnd, BranchPoint, Continuation, Family, MAX_CHORD_DISTANCE, SpecialKind,

@@ -114,7 +114,7 @@ fn touches_of_stops_that_are_nearly_alike_are_told_apart() {
         let branch = Continuation::new(&family, 1).branch(1.0, state.into(), &limits, go_on);
         let specials = branch.expect("a branch").specials.into_iter();
         let grazes = specials.filter_map(|special| match special.kind {
-            SpecialKind::Grazing(graze) => Some((graze.face, special.point.parameter)),
+            SpecialKind::Grazing(graze) => Some((graze.surface, special.point.parameter)),
             _ => None,
         });
         let mut faces: Vec<SwitchingSurface> = Vec::new();
@@ -160,7 +160,7 @@ fn along_clearance(frequency: f64, stop: Stop, nearer: f64) -> (Branch, f64) {
 /// The faces that are grazed on a branch, whether a crossing dies there, and the parameter.
 fn touches(branch: &Branch) -> Vec<(SwitchingSurface, bool, f64)> {
     let touch = |special: &SpecialPoint| match special.kind {
-        SpecialKind::Grazing(graze) => Some((graze.face, graze.dies, special.point.parameter)),
+        SpecialKind::Grazing(graze) => Some((graze.surface, graze.dies, special.point.parameter)),
         _ => None,
     };
     branch.specials.iter().filter_map(touch).collect()

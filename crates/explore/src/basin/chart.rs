@@ -4,7 +4,7 @@ use softstop::{Dimension, Machine};
 use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, style};
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::basin::AxisQuantity;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::{Axis as BasinAxis, Basins, Regime};
 
 use crate::palette::distinct_colors;

@@ -123,7 +123,7 @@ fn describe(special: &SpecialPoint) -> String {
     };
     match graze.is_symmetric {
         true => format!("grazing of clearance and below: {what}"),
-        false => format!("grazing of {:?}: {what}", graze.face).to_lowercase(),
+        false => format!("grazing of {:?}: {what}", graze.surface).to_lowercase(),
     }
 }
 

@@ -3,7 +3,7 @@
 use softstop::{Machine, Parameter};
 use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, around, style};
 use softstop_dynamics::Regime;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 
 use super::FidelityArguments;
 use super::structure::RegimeStructure;

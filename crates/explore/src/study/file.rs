@@ -11,8 +11,8 @@ use softstop_console::failure::Failure;
 use softstop_console::machine::PaperMachine;
 use softstop_console::range::{require, within};
 use softstop_console::{record_log, scene_file};
-use softstop_dynamics::points::MAX_DIMENSIONS;
 use softstop_dynamics::settled::Settling;
+use softstop_dynamics::spread_points::MAX_DIMENSIONS;
 
 use super::axis::{AxisSettings, StudyAxis};
 use super::certainty::Certainty;

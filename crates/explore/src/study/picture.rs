@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use softstop_console::failure::Failure;
 use softstop_draw::{Axis, Chart, Layer, Panel, Sign, style};
 use softstop_dynamics::Regime;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 
 use super::plot::{PlotPoint, StudyView};
 use super::report::AxisReport;

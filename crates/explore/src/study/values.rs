@@ -1,7 +1,7 @@
 //! Values along an axis of a study: listed, on a grid, or drawn.
 
 use serde::{Deserialize, Serialize};
-use softstop_dynamics::points;
+use softstop_dynamics::spread_points;
 
 /// How the values of an axis are spaced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -108,7 +108,7 @@ pub(super) fn between(from: f64, to: f64, share: f64, scale: Scale) -> f64 {
 /// The share between 0 and 1 that a sample takes of an axis of random numbers or of Sobol points.
 pub(super) fn share(draw: Draw, seed: u32, sample: u64, dimension: u32) -> f64 {
     match draw {
-        Draw::Sobol => points::sobol_coordinate(seed, sample, dimension),
-        Draw::Random => points::random_coordinate(seed, sample, dimension),
+        Draw::Sobol => spread_points::sobol_coordinate(seed, sample, dimension),
+        Draw::Random => spread_points::random_coordinate(seed, sample, dimension),
     }
 }

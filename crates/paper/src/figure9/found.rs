@@ -5,7 +5,7 @@ use softstop::{Ratios, Scene};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_dynamics::attractors::Attractor;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
 use super::WantedMotion;

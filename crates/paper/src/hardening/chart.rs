@@ -9,7 +9,7 @@ use super::swept::{RANGE, SweptStop, kind};
 use super::{DECADES, SUBHARMONIC};
 use crate::figure::Figure;
 use softstop_draw::{Align, Chart, Layer, Stroke, style};
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_explore::palette::{motion_color, motion_keys};
 
 /// Diagrams in a row.

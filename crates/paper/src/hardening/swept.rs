@@ -3,7 +3,7 @@
 use anyhow::Result;
 use softstop::Parameter;
 use softstop_dynamics::monitor::OptionalMemory;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::{Chain, MotionKind, Plan, SweepStep};
 
 use super::stops::{CLEARANCE, Law};

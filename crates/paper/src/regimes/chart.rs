@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use softstop_dynamics::continuation::CurvePoint;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::{MotionKind, Regime};
 
 use super::{Map, RegimeMap, middle};

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use softstop::{Ratios, Scene, SceneError};
 use softstop_console::machine::PaperMachine;
 use softstop_dynamics::basin::find_largest_ball;
-use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::motion_kind::MotionClass;
 use softstop_dynamics::{Axis, Direction, Grid, MotionKind};
 
 use crate::boundaries::Boundaries;

@@ -5,7 +5,7 @@ use super::{Transition, causes};
 use softstop::Start;
 use softstop_dynamics::continuation::{Continuation, SpecialKind, TestFunction};
 use softstop_dynamics::monitor::stop_if;
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::motion_kind::MotionKind;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 
 /// Share of a window within which the way back is tried.

@@ -8,7 +8,7 @@ use super::{Cause, Transition};
 use softstop::Start;
 use softstop_dynamics::attractors::find_attractors;
 use softstop_dynamics::monitor::recall_or_compute;
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::motion_kind::MotionKind;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 
 /// A periodic motion to follow: where it was met, and its orbit.

@@ -8,7 +8,7 @@ use softstop_dynamics::continuation::{
     Branch, BranchLimits, BranchPoint, Continuation, Family, SpecialKind, TestFunction,
 };
 use softstop_dynamics::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::motion_kind::MotionKind;
 use softstop_dynamics::orbit::{LyapunovExponents, Orbit, OrbitError};
 
 /// Relative differences between motions started side by side.

@@ -7,7 +7,7 @@ use super::explorer::Explorer;
 use softstop::{CheckedScene, Instant, MotionError, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::internals::{Ensemble, HasMember, Member};
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::motion_kind::MotionKind;
 use softstop_dynamics::orbit::{LyapunovExponents, Orbit, OrbitError};
 use softstop_lanes::LoweredMachine;
 

@@ -40,7 +40,7 @@ pub(crate) use intermittent::Stretches;
 use softstop::Start;
 use softstop_dynamics::attractors::SearchOptions;
 use softstop_dynamics::continuation::{SpecialKind, TestFunction};
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::motion_kind::MotionKind;
 
 /// A transition from one motion to another.
 #[derive(Debug, Clone)]

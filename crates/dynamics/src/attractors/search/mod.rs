@@ -10,15 +10,14 @@ use super::catalogue::AttractorCatalogue;
 use super::chaos::ChaosCandidate;
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
 use crate::ensemble::{Ensemble, Member, MemberStatus};
-use crate::monitor::{Monitor, stop_if, unmonitored};
+use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::recurrence::find_recurrence;
-use crate::orbit::{self, Orbit, OrbitError, Regime, harder_single_impact_orbit};
-use crate::tolerance::SAME;
+use crate::orbit::{Orbit, OrbitError};
 use softstop::{CheckedScene, Scene, Start};
 use softstop_lanes::LoweredMachine;
 
 /// Number of pilot starts, from far and wide, which show where motions stay.
-const PILOTS: usize = 64;
+pub(super) const PILOTS: usize = 64;
 /// Divisor of the drive periods for which wandering motions are watched where they do not run in lanes and cost more.
 const SLOW_WATCH_DIVISOR: u64 = 20;
 /// Factor by which the time grows for which wandering motions are watched between two checks.
@@ -36,11 +35,11 @@ struct SearchMember {
 }
 
 /// A search of the attractors of a scene, under way: motions, known orbits, and groups of wandering motions.
-struct Search<'a> {
-    scene: CheckedScene,
+pub(super) struct Search<'a> {
+    pub(super) scene: CheckedScene,
     options: SearchOptions,
-    ensemble: Ensemble<'a>,
-    catalogue: AttractorCatalogue,
+    pub(super) ensemble: Ensemble<'a>,
+    pub(super) catalogue: AttractorCatalogue,
     members: Vec<SearchMember>,
     groups: BTreeMap<usize, ChaosCandidate>,
 }
@@ -100,36 +99,6 @@ pub fn find_attractors_until(
     search.into_survey(region)
 }
 
-/// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the amplitude
-/// of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much again as any motion needs
-/// that 64 starts from far and wide come to, or that [`orbit::find`] or a lattice of impacts shows. It depends on the scene
-/// alone.
-///
-/// # Errors
-/// As [`find_attractors`].
-pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, OrbitError> {
-    Ok(Region::start_box(scene, end_states(scene, monitor)?))
-}
-
-/// States of the motions that the pilot starts settle on, and of the hardest stable z = 1 motion: that of [`orbit::find`], or
-/// where starts come to one, any harder one that a lattice of impacts shows.
-pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
-    let options = SearchOptions::default();
-    let mut search = Search::new(scene, &options, monitor)?;
-    search.ensemble.planned = (options.transient + search.log_length() as u64) * PILOTS as u64;
-    search.launch_starts(Region::pilot(scene).starts(PILOTS, options.seed), false)?;
-    let go_on = |_, _| stop_if(search.ensemble.count_work(0).is_err());
-    let met = search.catalogue.orbits.iter().map(|known| &known.orbit);
-    let met = met.filter(|orbit| orbit.regime() == Regime::ONE);
-    let hardest = match met.map(Orbit::before_impact_velocity).reduce(f64::max) {
-        Some(met) => harder_single_impact_orbit(&search.scene, (1.0 + SAME) * met, &go_on)?,
-        None => orbit::find_with_monitor(scene, &go_on).ok(),
-    };
-    search.ensemble.count_work(0)?;
-    let hardest = hardest.map(|orbit| orbit.state().into());
-    Ok(search.end_states().copied().chain(hardest).collect())
-}
-
 /// The attractor that the motion from one start settles on, however long that takes.
 ///
 /// # Errors
@@ -181,7 +150,7 @@ pub fn settle_starts(
 
 impl<'a> Search<'a> {
     /// A search without motions.
-    fn new(
+    pub(super) fn new(
         scene: &Scene,
         options: &SearchOptions,
         monitor: Monitor<'a>,
@@ -198,7 +167,7 @@ impl<'a> Search<'a> {
     }
 
     /// Number of last states that are recorded of a motion to classify it: its log.
-    fn log_length(&self) -> usize {
+    pub(super) fn log_length(&self) -> usize {
         2 * self.options.longest + 1
     }
 
@@ -218,7 +187,7 @@ impl<'a> Search<'a> {
 
     /// States where motions of the search have come to: those of the orbits reached, or the last ones of motions that have
     /// reached none.
-    fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
+    pub(super) fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
         let members = self.members.iter().map(|it| &it.member);
         members.flat_map(|member| match member.status {
             MemberStatus::Arrived(orbit) => &self.catalogue.orbits[orbit].states,
@@ -227,7 +196,11 @@ impl<'a> Search<'a> {
     }
 
     /// Advances motions from starts over the transient and classifies them; `counts`: they count in the attractors' shares.
-    fn launch_starts(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), OrbitError> {
+    pub(super) fn launch_starts(
+        &mut self,
+        starts: Vec<Start>,
+        counts: bool,
+    ) -> Result<(), OrbitError> {
         let first = self.members.len();
         let members = starts.into_iter().map(|start| SearchMember {
             member: Member::new(0, start),

@@ -6,7 +6,7 @@ use super::super::{Attractor, Region, Survey};
 use super::{Search, SearchMember};
 use crate::ensemble::MemberStatus;
 use crate::extremes::extremes;
-use crate::motion::MotionKind;
+use crate::motion_kind::MotionKind;
 use crate::orbit::{LyapunovExponents, OrbitError};
 use softstop::MotionError;
 

@@ -49,7 +49,7 @@ pub(super) fn first_end<'a>(
 ) -> Option<ZoneEnd> {
     let ends_motion = |kind: &SpecialKind| match kind {
         SpecialKind::Critical(_) | SpecialKind::Pitchfork => true,
-        SpecialKind::Grazing(graze) => graze.face == SwitchingSurface::Clearance,
+        SpecialKind::Grazing(graze) => graze.surface == SwitchingSurface::Clearance,
     };
     points.find_map(|point| match branch.special_at(point) {
         Some(special) if ends_motion(&special.kind) => {
@@ -101,10 +101,10 @@ impl Loss {
         match kind {
             SpecialKind::Critical(test) => Self::from(*test),
             SpecialKind::Pitchfork => Self::Pitchfork,
-            SpecialKind::Grazing(graze) => match graze.face {
+            SpecialKind::Grazing(graze) => match graze.surface {
                 SwitchingSurface::Clearance if graze.impacts == 0 => Self::Grazing,
                 SwitchingSurface::Clearance => Self::AnotherImpact,
-                face => Self::Inner(face),
+                surface => Self::Inner(surface),
             },
         }
     }

@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
+use super::all_single_impact_orbits::{SingleImpactSearch, impact_distance, time_distance};
 use super::impact_lattice::{
     LATTICE_SPEED_RATIO, LATTICE_TIMES, guess_impacts_from_lattice, lattice_speeds,
 };
-use super::single_impact_search::{SingleImpactSearch, impact_distance, time_distance};
 use super::{Orbit, OrbitError, TimedImpact};
 use crate::monitor::Monitor;
 use crate::tolerance::NEAR;
@@ -19,7 +19,7 @@ const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 /// ones down, and Newton's method is followed no farther than some cells.
 ///
 /// # Errors
-/// As [`single_impact_orbits`](super::single_impact_search::single_impact_orbits).
+/// As [`single_impact_orbits`](super::all_single_impact_orbits::single_impact_orbits).
 pub(crate) fn harder_single_impact_orbit(
     scene: &CheckedScene,
     least: f64,
@@ -92,7 +92,7 @@ impl SingleImpactSearch {
 mod tests {
     use super::{Orbit, harder_single_impact_orbit};
     use crate::monitor::unmonitored;
-    use crate::orbit::single_impact_search::single_impact_orbits;
+    use crate::orbit::all_single_impact_orbits::single_impact_orbits;
     use softstop::{Machine, Parameter};
 
     #[test]

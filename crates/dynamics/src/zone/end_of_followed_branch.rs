@@ -1,6 +1,6 @@
 //! The end of the stable motions of a branch that was followed.
 
-use super::end::{Loss, ZoneEnd, first_end};
+use super::zone_end::{Loss, ZoneEnd, first_end};
 use crate::continuation::{
     Branch, BranchLimits, BranchPoint, Continuation, Direction, SpecialKind, TestFunction,
 };

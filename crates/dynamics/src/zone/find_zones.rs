@@ -1,9 +1,9 @@
 //! The stable z = 1 motion of a scene at the frequency of its drive, and the zones of scenes.
 
+use super::all_stable_ranges::find_stable_ranges;
 use super::hysteresis_zone::{UpperEnd, zones_of};
 use super::single_impact_zone::single_impact;
 use super::stable_range::StableRange;
-use super::stable_ranges::find_stable_ranges;
 use super::{Zone, ZoneError, ZoneKind};
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{self, Orbit, OrbitError};

@@ -1,8 +1,8 @@
 //! The ranges of a zone whose branch folds back within it: along each of them one stable motion goes on from end to end.
 
 use super::Zone;
-use super::end::ZoneEnd;
 use super::stable_range::is_same_state;
+use super::zone_end::ZoneEnd;
 use crate::continuation::{BranchPoint, SpecialKind, TestFunction};
 use crate::orbit::Orbit;
 use crate::tolerance::SAME;
