@@ -7,8 +7,8 @@ const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 /// Steps between samples of a function in a period of its fastest oscillation.
 const SAMPLES_PER_OSCILLATION: f64 = 24.0;
 
-/// The largest value between two times of a function that oscillates no faster than with `rate` in rad/s.
-pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+/// Where a function that oscillates no faster than with `rate` in rad/s is largest between two times, and how large.
+pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
     let steps = (SAMPLES_PER_OSCILLATION * rate * (to - from) / TAU)
         .clamp(6.0, 4096.0)
         .ceil();
@@ -21,11 +21,15 @@ pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f
     let tops = (0..all.len()).filter(|&sample| all[sample] >= before(sample).max(after(sample)));
     let tops = tops.map(|sample| {
         let ends = [sample as f64 - 1.0, sample as f64 + 1.0].map(|end| at(end.clamp(0.0, steps)));
-        // The value is flat at the peak, and known to rounding with this width of its place.
-        let (_, top) = highest_point(ends[0], ends[1], 1e-8 * (at(1.0) - from), &value);
-        top.max(all[sample])
+        let top = highest_point(ends[0], ends[1], 1e-8 * (at(1.0) - from), &value);
+        if top.1 > all[sample] {
+            top
+        } else {
+            (at(sample as f64), all[sample])
+        }
     });
-    tops.fold(f64::NEG_INFINITY, f64::max)
+    let higher = |one: (f64, f64), other: (f64, f64)| if other.1 > one.1 { other } else { one };
+    tops.fold((from, f64::NEG_INFINITY), higher)
 }
 
 /// Where a function with one peak between `low` and `high` is highest, and how high, by golden section (Kiefer 1953)
@@ -69,7 +73,7 @@ mod tests {
     #[test]
     fn a_stretch_that_rounding_hardly_resolves_has_a_largest_value() {
         for (from, length) in [(5.0, 1e-9), (5.0, 1e-15), (0.0, f64::MIN_POSITIVE)] {
-            let largest = largest_value((from, from + length), 1.0, |x| 2.0 - x);
+            let (_, largest) = largest_value((from, from + length), 1.0, |x| 2.0 - x);
             assert!((largest - (2.0 - from)).abs() < 1e-12, "{largest}");
         }
     }

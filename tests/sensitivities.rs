@@ -2,14 +2,20 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::internals::FrequencySensitivity;
+use softstop::internals::{FrequencySensitivity, Polynomial};
 use softstop::{Clock, Perturbation, Ratios, Scene, Sensitivity, Simulation, Start, Stop};
 use softstop_testing::{Meets, cases, is_near, machines, start_below};
 
-/// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
-fn outputs(machine: &Simulation) -> [f64; 9] {
+/// How many outputs there are.
+const OUTPUTS: usize = 16;
+
+/// Position, velocity, acceleration, contact force, energies, time and velocity of the last impact, of the first and of the
+/// hardest one, peak and impulse of the contact force, and the work of the external force.
+fn outputs(machine: &Simulation, force: &Polynomial) -> [f64; OUTPUTS] {
     let (sample, energy) = (machine.sample(), machine.energy());
     let impact = machine.last_impact();
+    let contacts = machine.contacts().expect("known");
+    let [first, hardest] = [contacts.first, contacts.hardest].map(Option::unwrap_or_default);
     [
         sample.position,
         sample.velocity,
@@ -20,13 +26,20 @@ fn outputs(machine: &Simulation) -> [f64; 9] {
         energy.dissipated,
         impact.map_or(0.0, |impact| impact.time),
         impact.map_or(0.0, |impact| impact.velocity),
+        first.time,
+        first.velocity,
+        hardest.time,
+        hardest.velocity,
+        contacts.peak,
+        contacts.impulse,
+        machine.work_of(force).expect("known"),
     ]
 }
 
 /// Which of the outputs are energies.
 const ENERGIES: std::ops::Range<usize> = 4..7;
 
-fn derivatives(of: &Sensitivity) -> [f64; 9] {
+fn derivatives(of: &Sensitivity) -> [f64; OUTPUTS] {
     [
         of.position,
         of.velocity,
@@ -37,6 +50,13 @@ fn derivatives(of: &Sensitivity) -> [f64; 9] {
         of.dissipated,
         of.impact_time,
         of.impact_velocity,
+        of.first.time,
+        of.first.velocity,
+        of.hardest.time,
+        of.hardest.velocity,
+        of.peak,
+        of.impulse,
+        of.work,
     ]
 }
 
@@ -62,8 +82,11 @@ fn turned(scene: &Scene, start: Start, turns: f64) -> (Vector2<f64>, Option<Vect
 }
 
 /// Richardson's extrapolation of central differences, with its error.
-fn differences(run: impl Fn(f64) -> [f64; 9], width: f64) -> ([f64; 9], [f64; 9]) {
-    let central = |width: f64| -> [f64; 9] {
+fn differences(
+    run: impl Fn(f64) -> [f64; OUTPUTS],
+    width: f64,
+) -> ([f64; OUTPUTS], [f64; OUTPUTS]) {
+    let central = |width: f64| -> [f64; OUTPUTS] {
         let (high, low) = (run(width), run(-width));
         std::array::from_fn(|n| (high[n] - low[n]) / (2.0 * width))
     };
@@ -84,6 +107,7 @@ proptest! {
         velocity in -6.0..6.0f64,
         force in -0.3..0.3f64,
         rate in -0.1..0.1f64,
+        bend in prop_oneof![Just(0.0), -0.1..0.1f64],
         span in 0.05..1.2f64,
         towards in (-1.0..1.0f64, -1.0..1.0f64, -1.0..1.0f64),
     ) {
@@ -92,10 +116,14 @@ proptest! {
         let drive = scene.excitation;
         let until = Clock::new(drive.frequency, drive.phase).after(Clock::at_cycle(0), end);
         prop_assume!(Simulation::new(&scene, start).is_ok());
+        let pushed = |width: f64| {
+            let derivatives = [force + width * towards.2, rate, bend, 0.0, 0.0, 0.0, 0.0, 0.0];
+            Polynomial::new(derivatives)
+        };
         let run = |width: f64| {
             let start = Start::new(start.position + width * towards.0, start.velocity + width * towards.1);
             let mut machine = Simulation::new(&scene, start).expect("valid");
-            machine.set_force(&[force + width * towards.2, rate]).expect("finite");
+            machine.set_force(pushed(width).derivatives()).expect("finite");
             machine.advance(end).expect("bounded");
             machine
         };
@@ -114,9 +142,9 @@ proptest! {
         };
         prop_assume!([-2e-4, -1e-4, 1e-4, 2e-4].iter().all(|width| same(*width)));
         let by = Perturbation { position: towards.0, velocity: towards.1, force: towards.2 };
-        let exact = derivatives(&machine.sensitivity(&by).expect("known"));
-        let (found, error) = differences(|width| outputs(&run(width)), 1e-4);
-        for n in 0..9 {
+        let exact = derivatives(&machine.sensitivity(&by, &pushed(0.0)).expect("known"));
+        let (found, error) = differences(|width| outputs(&run(width), &pushed(width)), 1e-4);
+        for n in 0..OUTPUTS {
             let size = 1.0 + exact[n].abs();
             prop_assume!(error[n] < 1e-2 * size);
             // Of Richardson's error only the order is known: that of the difference squared.

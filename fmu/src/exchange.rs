@@ -19,6 +19,8 @@ impl Machine {
         }
         machine.more = machine.more.afresh();
         if let [position, velocity] = *states {
+            let moved = position - machine.sample().position;
+            machine.more.external.shift(moved);
             machine
                 .change()
                 .set_state(time, Start::new(position, velocity));

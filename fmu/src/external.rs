@@ -61,6 +61,11 @@ impl External {
         (self.since, self.place) = (now, position);
     }
 
+    /// Moves the mass by so much in m, without work.
+    pub fn shift(&mut self, by: f64) {
+        self.place += by;
+    }
+
     /// Adds work in J that was done elsewhere.
     pub fn count(&mut self, work: f64) {
         self.work += work;

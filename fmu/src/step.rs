@@ -149,7 +149,7 @@ impl Machine {
         self.more.is_open = false;
         let mut origin = Box::new(self.clone());
         origin.change().set_checkpoint();
-        match self.go_in_pieces(until, halt, &mut effort, events) {
+        match self.go_in_pieces(until, halt, &mut effort, events, &mut |_| Ok(())) {
             Ok(Advance::Short { reason, .. }) => Ok(Advance::Short {
                 reason,
                 before: Some(origin),
@@ -165,13 +165,27 @@ impl Machine {
         }
     }
 
-    /// Goes on under a drive that changes, piece by piece.
+    /// Lets the machine as it was before a step in pieces go through that again; tells it after each piece.
+    pub(crate) fn go_again(
+        &self,
+        origin: &mut Self,
+        each: &mut dyn FnMut(&Self) -> Outcome<()>,
+    ) -> Outcome<()> {
+        let end = self.simulation().time();
+        let halt = self.simulation().is_at_crossing().then_some(end);
+        let (mut effort, mut events) = (EFFORT, Events::default());
+        origin.go_in_pieces(end, halt, &mut effort, &mut events, each)?;
+        Ok(())
+    }
+
+    /// Goes on under a drive that changes, piece by piece; tells the machine after each one.
     fn go_in_pieces(
         &mut self,
         until: f64,
         halt: Option<f64>,
         effort: &mut Effort,
         events: &mut Events,
+        each: &mut dyn FnMut(&Self) -> Outcome<()>,
     ) -> Outcome<Advance<Self>> {
         let short = |reason| {
             let before = None;
@@ -191,6 +205,7 @@ impl Machine {
             }
             self.push_until(end)?;
             let outcome = self.go_straight(end, halt, effort, events)?;
+            each(self)?;
             self.more.is_open = true;
             if matches!(outcome, Advance::Event) {
                 return Ok(outcome);

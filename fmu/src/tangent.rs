@@ -1,5 +1,5 @@
-//! Derivatives of the outputs along a direction: exact where the engine has them, else by differences of steps gone
-//! through again.
+//! Derivatives of the outputs along a direction: exact, but by differences of steps gone through again along the inputs
+//! that lead the drive.
 
 use softstop::{Perturbation, Sensitivity};
 use softstop_fmi::{Events, Known, Outcome, Unit, slope};
@@ -8,140 +8,158 @@ use crate::machine::Machine;
 use crate::signal;
 use crate::start::slot;
 
-/// Width of the first differences, as a share of the motion.
+/// Width of the first differences, as a share of what leads the drive.
 const WIDTH: f64 = 1e-3;
-
-/// The position as a state.
-const POSITION: Known = Known::State(0);
 
 /// What a direction of change at the beginning of the last step brings.
 #[derive(Debug)]
 pub struct Tangent {
-    exact: Sensitivity,
-    machine: Machine,
-    /// The whole direction, and the part of it that `exact` leaves out.
-    whole: Vec<(Known, f64)>,
-    rest: Vec<(Known, f64)>,
+    /// Derivatives along the part of the direction that is no input of the drive.
+    pub(crate) exact: Sensitivity,
+    pub(crate) machine: Machine,
+    /// Derivative of the force of the drive in N by its amplitude, of the present state.
+    pub(crate) drive_force: f64,
+    /// Inputs of the drive over the step, with their seeds.
+    rest: Vec<(usize, f64)>,
 }
 
 impl Tangent {
     pub(crate) fn new(machine: &Machine, direction: &[(Known, f64)]) -> Outcome<Self> {
         let mass = machine.simulation().scene().mass;
-        let is_state = |(known, _): &&(Known, f64)| matches!(known, Known::State(_));
-        let mut by = Perturbation::default();
-        // Of a direction of the present state all parts know it.
-        let mut rest: Vec<_> = direction
-            .iter()
-            .filter(is_state)
-            .map(|(known, _)| (*known, 0.0))
-            .collect();
+        // Of a direction of the present state all parts are.
+        let is_present = (direction.iter()).any(|(known, _)| matches!(known, Known::State(_)));
+        let drive = machine.more.drive.as_deref();
+        let (mut by, mut drive_force, mut rest) = (Perturbation::default(), 0.0, Vec::new());
         for &(known, seed) in direction {
             match known {
-                _ if machine.more.origin.is_some() => rest.push((known, seed)),
                 Known::Signal(signal::FORCE) => by.force += seed,
                 Known::Signal(signal::BASE) => by.force -= mass * seed,
-                Known::Signal(_) if machine.more.drive.is_none() => {}
-                Known::Signal(_) => rest.push((known, seed)),
-                Known::Parameter(slot::INITIAL_POSITION) | POSITION => by.position += seed,
+                Known::Signal(number) if !is_present => rest.push((number, seed)),
+                Known::Signal(signal::AMPLITUDE) => {
+                    let drive = drive.filter(|drive| drive.takes_amplitude);
+                    let angle = drive.map(|drive| drive.angle_at(machine.time()));
+                    drive_force += angle.map_or(0.0, |angle| seed * angle.cos());
+                }
+                // It turns from now on only.
+                Known::Signal(_) => {}
+                Known::Parameter(slot::INITIAL_POSITION) | Known::State(0) => by.position += seed,
                 // A mass that is held stays at rest.
                 Known::State(_) if machine.is_held() => {}
                 Known::Parameter(_) | Known::State(_) => by.velocity += seed,
             }
         }
+        by.force += drive_force;
+        rest.retain(|(_, seed)| drive.is_some() && *seed != 0.0);
+        let exact = match &machine.more.origin {
+            Some(origin) => machine.sensitivity_in_pieces(origin, &by)?,
+            None => machine.sensitivity(&by)?,
+        };
         Ok(Self {
-            exact: machine.simulation().sensitivity(&by)?,
+            exact,
             machine: machine.clone(),
-            whole: direction.to_vec(),
+            drive_force,
             rest,
         })
     }
 
-    /// The derivative of an output that the engine has derivatives of.
-    pub(crate) fn along(&self, exact: fn(&Sensitivity) -> f64, value: fn(&Machine) -> f64) -> f64 {
-        exact(&self.exact) + self.machine.difference(&self.rest, value)
-    }
-
-    /// The derivative of any output.
-    pub(crate) fn of(&self, value: fn(&Machine) -> f64) -> f64 {
-        self.machine.difference(&self.whole, value)
+    /// The derivative of an output.
+    pub(crate) fn along(&self, exact: fn(&Self) -> f64, value: fn(&Machine) -> f64) -> f64 {
+        exact(self) + self.machine.difference(&self.rest, value)
     }
 }
 
 impl Machine {
-    fn difference(&self, direction: &[(Known, f64)], value: fn(&Self) -> f64) -> f64 {
-        if direction.iter().all(|(_, seed)| *seed == 0.0) {
+    /// The exact derivatives over a stretch under one harmonic drive.
+    fn sensitivity(&self, by: &Perturbation) -> Outcome<Sensitivity> {
+        let (simulation, external) = (self.simulation(), &self.more.external);
+        let force = external.at(simulation.time_of_checkpoint(), simulation.scene().mass);
+        Ok(simulation.sensitivity(by, &force)?)
+    }
+
+    /// The exact derivatives over a step that began as `origin` and was taken in pieces.
+    fn sensitivity_in_pieces(&self, origin: &Self, by: &Perturbation) -> Outcome<Sensitivity> {
+        let mut sum = Sensitivity::default();
+        (sum.position, sum.velocity) = (by.position, by.velocity);
+        let mut add = |machine: &Self| {
+            let by = Perturbation {
+                position: sum.position,
+                velocity: sum.velocity,
+                ..*by
+            };
+            let mut next = machine.sensitivity(&by)?;
+            next.supplied += sum.supplied;
+            next.dissipated += sum.dissipated;
+            next.impulse += sum.impulse;
+            next.work += sum.work;
+            let kept = machine.more.contacts.as_deref().copied();
+            let (kept, piece) = (kept.unwrap_or_default(), machine.simulation().contacts()?);
+            if piece.impacts == 0 {
+                next.impact_time = sum.impact_time;
+                next.impact_velocity = sum.impact_velocity;
+            }
+            if kept.impacts > 0 {
+                next.first = sum.first;
+            }
+            if kept.and(&piece).hardest == kept.hardest {
+                next.hardest = sum.hardest;
+            }
+            if piece.peak <= kept.peak {
+                next.peak = sum.peak;
+            }
+            sum = next;
+            Ok(())
+        };
+        self.go_again(&mut origin.clone(), &mut add)?;
+        Ok(sum)
+    }
+
+    /// The derivative of an output along inputs of the drive.
+    fn difference(&self, direction: &[(usize, f64)], value: fn(&Self) -> f64) -> f64 {
+        let width = |&(number, seed): &(usize, f64)| WIDTH * self.scale(number) / seed.abs();
+        let width = direction.iter().map(width).fold(f64::INFINITY, f64::min);
+        if width == f64::INFINITY {
             return 0.0;
         }
-        let width = |&(known, seed): &(Known, f64)| WIDTH * self.scale(known) / seed.abs();
-        let width = direction.iter().map(width).fold(f64::INFINITY, f64::min);
         let story = |machine: &Self| {
             let of = machine.contacts();
             (machine.phase(), of.impacts, of.pierced)
         };
         let same = |machine: &Self| story(machine) == story(self);
-        slope(value(self), width, |step| {
+        let at = |step| {
             let machine = self.repeated(direction, step).ok()?;
             same(&machine).then(|| value(&machine))
-        })
+        };
+        // Energies count from the beginning of the last step.
+        at(0.0).map_or(f64::NAN, |here| slope(here, width, at))
     }
 
-    /// How much of something is much.
-    fn scale(&self, known: Known) -> f64 {
+    /// How much of an input of the drive is much.
+    fn scale(&self, number: usize) -> f64 {
         let (scene, of) = (self.simulation().scene(), self.sample());
         let rate = scene.excitation.frequency.abs();
         let length = of.position.abs() + of.velocity.abs() / rate;
         let length = if length > 0.0 { length } else { 1.0 };
-        match known {
-            Known::Signal(signal::SPEED) => rate,
-            Known::Signal(signal::BASE) => rate * rate * length,
-            Known::Signal(_) => scene.mass * rate * rate * length,
-            Known::Parameter(slot::INITIAL_POSITION) | POSITION => length,
-            Known::Parameter(_) | Known::State(_) => rate * length,
+        match number {
+            signal::SPEED => rate,
+            _ => scene.mass * rate * rate * length,
         }
     }
 
-    /// The last step again, from a beginning that was moved by `step` along a direction; the present state, if that is what
-    /// is moved.
-    fn repeated(&self, direction: &[(Known, f64)], step: f64) -> Outcome<Self> {
+    /// The last step again, under inputs of the drive that were moved by `step` along a direction.
+    fn repeated(&self, direction: &[(usize, f64)], step: f64) -> Outcome<Self> {
         let begin = self.more.origin.as_deref().unwrap_or(self);
-        let (mut position, mut velocity) = (0.0, 0.0);
-        for &(known, seed) in direction {
-            match known {
-                Known::Parameter(slot::INITIAL_POSITION) | POSITION => position += step * seed,
-                Known::Parameter(_) | Known::State(_) => velocity += step * seed,
-                Known::Signal(_) => {}
-            }
-        }
-        let is_present = direction
-            .iter()
-            .any(|(known, _)| matches!(known, Known::State(_)));
-        let mut machine = if is_present {
-            self.clone()
-        } else {
-            let simulation = begin
-                .simulation()
-                .displaced_at_checkpoint(position, velocity)?;
-            Self::new(simulation, begin.more.clone().afresh())
-        };
-        for &(known, seed) in direction {
-            if let Known::Signal(number) = known {
-                let mut signal = *machine.signal(number).derivatives();
-                signal[0] += step * seed;
-                machine.set(number, &signal);
-            }
+        let simulation = begin.simulation().at_checkpoint();
+        let mut machine = Self::new(simulation, begin.more.clone().afresh());
+        for &(number, seed) in direction {
+            let mut signal = *machine.signal(number).derivatives();
+            signal[0] += step * seed;
+            machine.set(number, &signal);
         }
         machine.push()?;
-        if is_present {
-            let of = self.sample();
-            machine = machine.placed(
-                self.time(),
-                &[of.position + position, of.velocity + velocity],
-            )?;
-            machine.keep_law(self);
-        }
         let end = self.simulation().time();
         if end > machine.simulation().time() {
-            machine.go_to(end, None, &mut Events::default())?;
+            let halt = self.simulation().is_at_crossing().then_some(end);
+            machine.go_to(end, halt, &mut Events::default())?;
         }
         Ok(machine)
     }

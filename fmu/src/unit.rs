@@ -161,8 +161,13 @@ impl Unit for Machine {
 
     fn drive(&mut self, signal: usize, derivatives: &Derivatives) -> Outcome<()> {
         self.close();
+        let before = self.sample().position;
         self.set(signal, derivatives);
-        self.push()
+        self.push()?;
+        // Beyond the end of a law another force may move the mass to where it holds.
+        let moved = self.sample().position - before;
+        self.more.external.shift(moved);
+        Ok(())
     }
 
     fn check_reach(&self, until: f64) -> Outcome<()> {

@@ -4,23 +4,38 @@ use crate::common::{OK, OUTPUTS, Unit};
 use softstop_testing::assert_near;
 use softstop_testing::tolerance::SOLVED;
 
-fn outputs(unit: &Unit) -> [f64; 9] {
-    OUTPUTS.map(|name| unit.get(name))
+/// Outputs of drive and frame, and what a step tells of its contacts.
+const FURTHER: [&str; 11] = [
+    "drive.angle",
+    "drive.force",
+    "drive.power",
+    "drive.work",
+    "frame.force",
+    "contact.peak",
+    "contact.impulse",
+    "impact.step.first.time",
+    "impact.step.first.velocity",
+    "impact.step.hardest.time",
+    "impact.step.hardest.velocity",
+];
+
+fn outputs<const N: usize>(unit: &Unit, names: [&str; N]) -> [f64; N] {
+    names.map(|name| unit.get(name))
 }
 
 /// Central difference of `run` about 0.
-fn difference(run: impl Fn(f64) -> [f64; 9], width: f64) -> [f64; 9] {
+fn difference<const N: usize>(run: impl Fn(f64) -> [f64; N], width: f64) -> [f64; N] {
     let (high, low) = (run(width), run(-width));
     std::array::from_fn(|n| (high[n] - low[n]) / (2.0 * width))
 }
 
 fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    for (n, name) in OUTPUTS.iter().enumerate() {
-        let (found, expected) = (found[n], expected[n]);
+    assert_eq!(found.len(), expected.len());
+    for (n, (found, expected)) in found.iter().zip(expected).enumerate() {
         let off = (found - expected).abs();
         assert!(
             off < tolerance * (1.0 + expected.abs()),
-            "{what}: {name} {found} {expected}"
+            "{what}: {n} {found} {expected}"
         );
     }
 }
@@ -44,7 +59,7 @@ fn force_across_the_impacts_of_the_last_step() {
             let found = run(steps, 0.0)
                 .derivatives(&OUTPUTS, &[("force", 1.0)])
                 .expect("available");
-            let expected = difference(|change| outputs(&run(steps, change)), 1e-5);
+            let expected = difference(|change| outputs(&run(steps, change), OUTPUTS), 1e-5);
             assert_close(&found, &expected, 1e-5, &format!("{model} {steps}"));
         }
     }
@@ -105,7 +120,7 @@ fn parameters_in_initialisation() {
             let unit = Unit::new();
             begin(&unit);
             assert_eq!(unit.set(name, value + 2.0 * change), OK);
-            outputs(&unit)
+            outputs(&unit, OUTPUTS)
         };
         let signed = ["excitation.phase", "force"].contains(&name);
         let low = if value == 0.0 && !signed { 0.0 } else { -1e-6 };
@@ -142,9 +157,99 @@ fn parameters_at_the_end_of_their_range() {
     let found = begin(0.0)
         .derivatives(&OUTPUTS, &[("piercing.thickness", 1.0)])
         .expect("available");
-    let (here, there) = (outputs(&begin(0.0)), outputs(&begin(1e-6)));
+    let (here, there) = ([0.0, 1e-6].map(begin))
+        .map(|unit| outputs(&unit, OUTPUTS))
+        .into();
     let expected: Vec<_> = (0..9).map(|n| (there[n] - here[n]) / 1e-6).collect();
     assert_close(&found, &expected, 1e-5, "thickness");
     // Pressed with k4 (x - r - s), k4 = 7.
     assert_near(found[3], -7.0, 1e-9);
+}
+
+/// At the start and over a first step, under a constant drive and along a ramp of it.
+#[test]
+fn drive_frame_and_contacts() {
+    for (model, ramp, time) in [2.0, 3.0, 4.0, 5.0, 6.0]
+        .into_iter()
+        .flat_map(|model| [0.0, 0.05].map(|ramp| (model, ramp)))
+        .flat_map(|(model, ramp)| [0.0, 0.4, 9.0].map(|time| (model, ramp, time)))
+    {
+        let run = |name: &str, change: f64| {
+            let unit = Unit::new();
+            let moved = |of: &str, value: f64| value + if of == name { change } else { 0.0 };
+            let set = |of, value| assert_eq!(unit.set(of, moved(of, value)), OK, "{of}");
+            unit.set_all(&[("stop.model", model), ("excitation.phase", 0.7)]);
+            assert_eq!(unit.set("drive.takes.speed", f64::from(ramp > 0.0)), OK);
+            set("initial.position", 5.0);
+            set("initial.velocity", 8.0);
+            if time > 0.0 {
+                unit.begin();
+            } else {
+                unit.enter(0.0);
+            }
+            set("force", 0.4);
+            set("base.acceleration", 0.3);
+            set("drive.speed", 1.15);
+            assert_eq!(unit.slope("force", 1, 0.02), OK);
+            assert_eq!(unit.slope("drive.speed", 1, ramp), OK);
+            if time > 0.0 {
+                assert_eq!(unit.step(0.0, time), OK);
+            }
+            unit
+        };
+        for name in [
+            "initial.position",
+            "initial.velocity",
+            "force",
+            "base.acceleration",
+            "drive.speed",
+        ] {
+            let found = run("", 0.0).derivatives(&FURTHER, &[(name, 1.0)]);
+            let expected = difference(|change| outputs(&run(name, change), FURTHER), 1e-6);
+            let found = found.expect("available");
+            assert_close(
+                &found,
+                &expected,
+                2e-6,
+                &format!("{model} {ramp} {time} {name}"),
+            );
+        }
+    }
+}
+
+/// Two preloaded stops, where a start slower by a ten-thousandth makes another impact the hardest, and the end of a step
+/// just after the mass has reached the stop.
+#[test]
+fn beside_another_hardest_impact_and_another_phase() {
+    const STOPS: &[(&str, f64)] = &[
+        ("stop.stiffness", 48.0),
+        ("stop.preload", 32.0),
+        ("stop.below.model", 5.0),
+        ("stop.below.stiffness", 28.0),
+        ("stop.below.preload", 26.0),
+        ("stop.below.clearance", 0.5),
+        ("clearance", 1.0),
+        ("piercing.thickness", 0.0),
+        ("piercing.travel", 0.0),
+        ("rigid.present", 0.0),
+        ("initial.position", 0.0),
+        ("initial.velocity", 1.357_521),
+    ];
+    const STRIP: &[(&str, f64)] = &[("initial.position", 5.0), ("initial.velocity", 14.0)];
+    for (values, inputs, time) in [(STOPS, [0.0, 0.0], 6.0), (STRIP, [0.4, 0.3], 0.476_66)] {
+        let run = |change: f64| {
+            let unit = Unit::new();
+            unit.set_all(values);
+            unit.begin();
+            unit.set_all(&[
+                ("force", inputs[0] + change),
+                ("base.acceleration", inputs[1]),
+            ]);
+            assert_eq!(unit.step(0.0, time), OK);
+            unit
+        };
+        let found = run(0.0).derivatives(&FURTHER, &[("force", 1.0)]);
+        let expected = difference(|change| outputs(&run(change), FURTHER), 1e-6);
+        assert_close(&found.expect("available"), &expected, 2e-6, "force");
+    }
 }

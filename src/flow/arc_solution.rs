@@ -8,6 +8,7 @@ use super::linear_law::MAX_DIGIT_LOSS;
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 use super::scan_node::ScanNode;
+use super::series::{derivative, value};
 use super::taylor_polynomials::linear_forcing_series;
 use super::zero_state_responses::ZeroStateResponses;
 use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorPolynomials, TaylorStep};
@@ -288,7 +289,18 @@ impl ArcSolution {
         self.linear_forcing_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
     }
 
-    /// The drive angle `elapsed` seconds after departure.
+    /// The rate of the forcing per mass of a held mass in m/s^3, `elapsed` seconds after departure.
+    pub(crate) fn forcing_rate_at_rest(&self, elapsed: f64) -> f64 {
+        match &self.form {
+            Form::TaylorStep(segment) => value(&derivative(&segment.forcing), elapsed),
+            _ => {
+                let (amplitude, w) = (self.flow.amplitude, self.flow.frequency);
+                self.departure.forcing.rate() - amplitude * w * self.drive_at(elapsed).sin
+            }
+        }
+    }
+
+    /// The drive `elapsed` seconds after departure.
     pub(super) fn drive_at(&self, elapsed: f64) -> DriveAngle {
         let turn = DriveAngle::at(self.flow.frequency * elapsed);
         self.departure.drive.turned(turn)

@@ -4,7 +4,9 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::arc_solution::{ArcSolution, Form};
+use super::gauss::gauss_nodes;
 use super::paired_products::Products;
+use super::polynomial::Polynomial;
 use super::series::{
     Series, ZERO, derivative, integral, integral_of_product, power_series, product, value,
 };
@@ -57,8 +59,45 @@ impl ArcSolution {
         }
     }
 
-    /// The derivatives of the state `elapsed` seconds after departure by the state there and, if the departure is
-    /// `since` seconds after the instant at which the drive angle is held, by the frequency of the drive.
+    /// The changes of the integral of the position from `from` to `elapsed`, where a course that began before is that of a
+    /// held mass, and of that of the position times the rate of a force, which is linear in time unless the forcing is not.
+    pub(crate) fn displacement_variation(
+        &self,
+        (from, elapsed): (f64, f64),
+        by: Variation,
+        force: &Polynomial,
+    ) -> (f64, f64) {
+        match &self.form {
+            Form::TaylorStep(segment) if !segment.is_still() => {
+                let ([position, _], rate) =
+                    (segment.state_variation(by), segment.time_rate_series());
+                let mut sums = (0.0, 0.0);
+                for (sigma, weight) in gauss_nodes(segment.sigma_after(elapsed)) {
+                    let moved = weight * value(&rate, sigma) * value(&position, sigma);
+                    let force_rate = force.shifted(segment.time_at_sigma(sigma)).rate();
+                    sums = (sums.0 + moved, sums.1 + force_rate * moved);
+                }
+                sums
+            }
+            Form::Particular { .. } | Form::Responses => {
+                let modes = &self.flow.modes;
+                let ZeroStateResponses { constant, ramp, .. } =
+                    ZeroStateResponses::after_time(modes, self.flow.frequency, elapsed);
+                let by_position =
+                    modes.transition(elapsed)[(0, 1)] + 2.0 * modes.decay * constant.x;
+                let moved =
+                    by.position * by_position + by.velocity * constant.x + by.forcing * ramp.x;
+                (moved, force.rate() * moved)
+            }
+            _ => {
+                let force = force.value_at(elapsed) - force.value_at(from);
+                (by.position * (elapsed - from), by.position * force)
+            }
+        }
+    }
+
+    /// How the state after `elapsed` changes with that at departure and, if that is `since` seconds after the instant at
+    /// which the drive's angle is held, with the drive's frequency.
     pub(crate) fn state_transition(&self, elapsed: f64, since: Option<f64>) -> Transition {
         if let Form::TaylorStep(step) = &self.form {
             let force = since.and_then(|since| self.frequency_variation_force(step, since));

@@ -41,16 +41,14 @@ impl Simulation {
         motion.restarted_at(at)
     }
 
-    /// The machine as it was at the mark, position and velocity changed by so much: what follows may be compared with
-    /// other changes. Its energies count from there.
-    ///
-    /// # Errors
-    /// [`MotionError::BeyondStop`].
-    pub fn displaced_at_checkpoint(
-        &self,
-        position: f64,
-        velocity: f64,
-    ) -> Result<Self, MotionError> {
+    /// The time in s of the checkpoint.
+    pub fn time_of_checkpoint(&self) -> f64 {
+        self.time_of(self.motion_through_checkpoint().1)
+    }
+
+    /// The machine as it was at the checkpoint: what follows may be compared with what did. Its energies count from there.
+    #[must_use]
+    pub fn at_checkpoint(&self) -> Self {
         let motion = self.motion_at_checkpoint();
         let mut machine = self.clone();
         machine.now = self.time_of(motion.now());
@@ -65,10 +63,7 @@ impl Simulation {
         }
         machine.checkpoint = Checkpoint::OnArc(motion.now());
         machine.motion = motion;
-        if position != 0.0 || velocity != 0.0 {
-            machine.motion.displace(position, velocity)?;
-        }
-        Ok(machine)
+        machine
     }
 
     /// A motion that passes the mark, and when.

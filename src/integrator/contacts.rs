@@ -84,34 +84,15 @@ impl Observer for ContactRecorder<'_> {
         if arc.kind == PhaseKind::Free || elapsed <= from {
             return;
         }
-        let Scene {
-            mass,
-            stiffness,
-            damping,
-            ..
-        } = *self.scene;
-        let law = arc.phase.map_or(0.0, |phase| phase.law.force);
-        let rest = |time: f64| {
-            mass * arc.course.forcing_at(time) - law - stiffness * arc.at(time).position
-        };
-        let fastest = arc.course.flow.modes.fastest_rate();
-        let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, |_| fastest);
-
+        let (mass, damping) = (self.scene.mass, self.scene.damping);
         // F = forcing - k1 x - b1 x' - m x'', of which the last two have integrals.
-        self.contacts.impulse += integrate((from, elapsed), rate, rest);
+        let rest = |time: f64| static_force(self.scene, arc, time);
+        self.contacts.impulse += integrate((from, elapsed), rate_of(self.scene, arc), rest);
         let (begin, end) = (arc.at(from), arc.node_after(elapsed));
         self.contacts.impulse -= damping * (end.position - begin.position);
         self.contacts.impulse -= mass * (end.velocity - begin.velocity);
 
-        let force = |time: f64| {
-            let Start { position, velocity } = arc.at(time);
-            let force = arc.phase.map_or_else(
-                || rest(time),
-                |phase| phase.contact_force(position, velocity),
-            );
-            arc.side * force
-        };
-        let peak = largest_value((from, elapsed), rate, force);
+        let (_, peak) = contact_peak(self.scene, arc, (from, elapsed));
         self.contacts.peak = self.contacts.peak.max(peak);
     }
 
@@ -133,4 +114,29 @@ impl Observer for ContactRecorder<'_> {
             ..Contacts::default()
         });
     }
+}
+
+/// The force of drive, external force and suspension in N at a time of an arc.
+fn static_force(scene: &Scene, arc: &Arc<'_>, time: f64) -> f64 {
+    let law = arc.phase.map_or(0.0, |phase| phase.law.force);
+    scene.mass * arc.course.forcing_at(time) - law - scene.stiffness * arc.at(time).position
+}
+
+/// What the contact force of an arc oscillates no faster than with, in rad/s.
+fn rate_of(scene: &Scene, arc: &Arc<'_>) -> f64 {
+    let fastest = arc.course.flow.modes.fastest_rate();
+    scene.excitation.frequency + arc.phase.map_or(0.0, |_| fastest)
+}
+
+/// When between two times of an arc either stop presses with the largest contact force, in s after its start, and that
+/// force in N.
+pub(crate) fn contact_peak(scene: &Scene, arc: &Arc<'_>, span: (f64, f64)) -> (f64, f64) {
+    largest_value(span, rate_of(scene, arc), |time| {
+        let Start { position, velocity } = arc.at(time);
+        let force = arc.phase.map_or_else(
+            || static_force(scene, arc, time),
+            |phase| phase.contact_force(position, velocity),
+        );
+        arc.side * force
+    })
 }

@@ -23,6 +23,7 @@ mod work;
 
 pub use clock::{Clock, Instant};
 pub use contacts::Contacts;
+pub(crate) use contacts::contact_peak;
 pub use effort::{Effort, Evaluations};
 pub(crate) use external_force::force_from_derivatives;
 pub use motion::Motion;

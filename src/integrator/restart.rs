@@ -96,15 +96,6 @@ impl Motion {
         matches!(left, Mode::Held(_))
     }
 
-    /// Restarts the motion with position and velocity changed by so much.
-    pub(super) fn displace(&mut self, position: f64, velocity: f64) -> Result<(), MotionError> {
-        let state = self.state();
-        let start = Start::new(state.position + position, state.velocity + velocity);
-        let phases = self.phases.clone();
-        *self = self.restarted_through((phases, self.clock), self.now, start)?;
-        Ok(())
-    }
-
     /// This motion at a time on its present arc, with an arc of its own from there on.
     pub(crate) fn restarted_at(&self, now: Instant) -> Self {
         let mut motion = Self {

@@ -3,9 +3,17 @@
 
 use super::saltation;
 use crate::error::MotionError;
-use crate::flow::Variation;
-use crate::integrator::{Arc, Crossing, CrossingKind, Motion, Observer, Simulation, Start};
+use crate::flow::{Polynomial, Variation};
+use crate::integrator::{
+    Arc, Crossing, CrossingKind, Impact, Instant, Motion, Observer, Simulation, Start, contact_peak,
+};
+use crate::phases::PhaseKind;
 use crate::scene::Scene;
+
+/// Share of a peak by which it may miss one that it goes on from, at the beginning of an arc.
+const ROUNDING: f64 = 1e-9;
+/// Share of an arc over which the curvature of the contact force at its top is taken.
+const TOP_WIDTH: f64 = 1e-4;
 
 /// A small change of state and external force at the beginning of the last advance: the direction of [`Sensitivity`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -40,42 +48,73 @@ pub struct Sensitivity {
     pub impact_time: f64,
     /// Derivative of its before-impact velocity, in m/s.
     pub impact_velocity: f64,
+    /// Derivatives of time and velocity of the first impact of the stretch; zeros without one.
+    pub first: Impact,
+    /// Derivatives of time and velocity of its hardest impact.
+    pub hardest: Impact,
+    /// Derivative of the largest contact force of the stretch, in N; NaN where a peak begins as bounces end.
+    pub peak: f64,
+    /// Derivative of the integral of the contact force, in N s.
+    pub impulse: f64,
+    /// Derivative of the work of the force that was asked for, in J.
+    pub work: f64,
 }
 
 impl Simulation {
     /// The derivatives of the present outputs along a direction of change at the beginning of the last
     /// advance (or where [`Simulation::set_checkpoint`] was called since). Crossings are passed with their
-    /// saltation matrices; at a graze, where the derivative does not exist, it is huge.
+    /// saltation matrices; at a graze, where the derivative does not exist, it is huge. `force` is the part of the external
+    /// force, by its derivatives in N there, whose work is asked for.
     ///
     /// # Errors
     /// [`MotionError`] if the stretch cannot be gone through again.
-    pub fn sensitivity(&self, by: &Perturbation) -> Result<Sensitivity, MotionError> {
+    pub fn sensitivity(
+        &self,
+        by: &Perturbation,
+        force: &Polynomial,
+    ) -> Result<Sensitivity, MotionError> {
         let (scene, now) = (self.scene(), self.motion());
         let mut motion = self.motion_at_checkpoint();
         let stored = energy_change(scene, &motion, by.position, by.velocity);
+        let (from, start) = (motion.now(), motion.state());
         let mut watch = SensitivityRecorder {
-            mass: scene.mass,
+            scene,
+            from,
+            worked: force,
             force: by.force,
             position: by.position,
             velocity: by.velocity,
-            ..SensitivityRecorder::default()
+            found: Sensitivity::default(),
+            forcing: 0.0,
+            later: 0.0,
+            way: 0.0,
+            hardest: 0.0,
+            peak: 0.0,
+            end_rate: None,
         };
         motion.advance_like(now, &mut watch)?;
         if motion.elapsed() > 0.0 {
             motion.tell_arc(&mut watch);
         }
-        let mechanical = energy_change(scene, now, watch.position, watch.velocity);
+        let (position, velocity) = (watch.position, watch.velocity);
+        let mechanical = energy_change(scene, now, position, velocity);
         let (acceleration, contact_force) = watch.force_changes(scene, now);
+        let elapsed = motion.clock().elapsed(from, now.now());
+        let (moved, hastened) = (position - by.position, velocity - by.velocity);
+        // m x'' + b1 x' + k1 x + F = forcing, and the work f x less the integral of f' x; the position does not jump.
+        let resisted = scene.stiffness * watch.way + scene.damping * moved + scene.mass * hastened;
+        let worked = force.value_at(elapsed) * position - force.value() * by.position;
+        let travel = now.state().position - start.position;
         Ok(Sensitivity {
-            position: watch.position,
-            velocity: watch.velocity,
+            position,
+            velocity,
             acceleration,
             contact_force,
             mechanical,
-            supplied: watch.supplied,
-            dissipated: watch.supplied - (mechanical - stored),
-            impact_time: watch.impact.0,
-            impact_velocity: watch.impact.1,
+            dissipated: watch.found.supplied - (mechanical - stored),
+            impulse: by.force * elapsed - resisted,
+            work: watch.found.work + worked + by.force * travel,
+            ..watch.found
         })
     }
 }
@@ -91,52 +130,147 @@ fn energy_change(scene: &Scene, motion: &Motion, position: f64, velocity: f64) -
 }
 
 /// Carries a change along a motion.
-#[derive(Debug, Default)]
-struct SensitivityRecorder {
-    mass: f64,
+struct SensitivityRecorder<'a> {
+    scene: &'a Scene,
+    from: Instant,
+    /// The force whose work is asked for.
+    worked: &'a Polynomial,
     force: f64,
     position: f64,
     velocity: f64,
-    supplied: f64,
+    found: Sensitivity,
     /// Push in N at the end of the last arc.
     forcing: f64,
-    /// Changes of the time and the velocity of the last impact.
-    impact: (f64, f64),
+    /// Change in s of the time of the crossing that an arc begins with, if it does.
+    later: f64,
+    /// Change of the integral of the position, in m s.
+    way: f64,
+    /// Velocity of the hardest impact in m/s, and largest contact force in N.
+    hardest: f64,
+    peak: f64,
+    /// Rate of that force in N/s, if it is the one at the end of the last arc.
+    end_rate: Option<f64>,
 }
 
-impl Observer for SensitivityRecorder {
+impl Observer for SensitivityRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let mass = self.scene.mass;
         let by = Variation {
             position: self.position,
             velocity: self.velocity,
-            forcing: self.force / self.mass,
+            forcing: self.force / mass,
         };
-        let law = arc.phase.map_or(0.0, |phase| phase.law.force / self.mass);
-        self.supplied += self.mass * arc.course.supply_variation(elapsed, by, law);
-        self.forcing = self.mass * (arc.course.forcing_at(elapsed) - law);
+        let law = arc.phase.map_or(0.0, |phase| phase.law.force / mass);
+        self.found.supplied += mass * arc.course.supply_variation(elapsed, by, law);
+        self.forcing = mass * (arc.course.forcing_at(elapsed) - law);
+        let since = arc.clock.elapsed(self.from, arc.start);
+        let span = ((-since).max(0.0), elapsed);
+        let worked = self.worked.shifted(since);
+        let (way, unworked) = arc.course.displacement_variation(span, by, &worked);
+        self.way += way;
+        self.found.work -= unworked;
+        if arc.kind != PhaseKind::Free && span.0 < elapsed {
+            self.look_for_peak(arc, span, by);
+        }
         (self.position, self.velocity) = arc.course.state_variation(elapsed, by);
+        // Unless a crossing follows, the next arc goes on with this one.
+        self.later = 0.0;
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
         let (v, a) = (crossing.velocity, crossing.acceleration_before);
-        let later = match crossing.kind {
+        self.later = match crossing.kind {
             CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } if v != 0.0 => {
                 -self.position / v
             }
+            CrossingKind::Reversal => -self.velocity / a,
+            CrossingKind::Rest => f64::NAN,
             _ => 0.0,
         };
-        if crossing.impact_velocity().is_some() {
-            let side = 1f64.copysign(v);
-            self.impact = (later, side * (self.velocity + a * later));
+        if let Some(rate) = self.end_rate {
+            self.found.peak += rate * self.later;
         }
-        // The forcing works on another velocity from an impact on that comes later.
-        self.supplied += self.forcing * (v - crossing.velocity_after) * later;
+        if let Some(velocity) = crossing.impact_velocity() {
+            let side = 1f64.copysign(v);
+            let by = Impact {
+                time: self.later,
+                velocity: side * (self.velocity + a * self.later),
+            };
+            if self.hardest == 0.0 {
+                self.found.first = by;
+            }
+            if velocity > self.hardest {
+                (self.hardest, self.found.hardest) = (velocity, by);
+            }
+            (self.found.impact_time, self.found.impact_velocity) = (by.time, by.velocity);
+        }
+        let jump = v - crossing.velocity_after;
+        if jump != 0.0 && crossing.kind != CrossingKind::Rest {
+            // The forcing works on another velocity from an impact on that comes later.
+            self.found.supplied += self.forcing * jump * self.later;
+        }
         let after = saltation(crossing) * nalgebra::Vector2::new(self.position, self.velocity);
         (self.position, self.velocity) = (after.x, after.y);
     }
 }
 
-impl SensitivityRecorder {
+impl SensitivityRecorder<'_> {
+    /// The change of the contact force where it is largest on an arc, if it is larger there than before: at an end of the
+    /// arc it comes with that.
+    fn look_for_peak(&mut self, arc: &Arc<'_>, (from, to): (f64, f64), by: Variation) {
+        let (mut time, peak) = contact_peak(self.scene, arc, (from, to));
+        let goes_on = time == from && self.end_rate.is_some();
+        self.end_rate = None;
+        if peak <= self.peak * if goes_on { 1.0 - ROUNDING } else { 1.0 } {
+            return;
+        }
+        let rate = |time: f64| self.contact_change(arc, time, by).1;
+        // A flat top tells half the digits of its time: a step of Newton's method towards where the rate is zero.
+        let width = (TOP_WIDTH * (to - from)).min(time - from).min(to - time);
+        let curvature = (rate(time + width) - rate(time - width)) / (2.0 * width);
+        if curvature < 0.0 {
+            time = (time - rate(time) / curvature).clamp(time - width, time + width);
+        }
+        let (change, rate) = self.contact_change(arc, time, by);
+        self.peak = peak;
+        self.found.peak = change;
+        if time == from {
+            self.found.peak += rate * self.later;
+        }
+        self.end_rate = (time == to).then_some(rate);
+    }
+
+    /// Change of the force in N that a stop presses with at a time of an arc, and its rate in N/s.
+    fn contact_change(&self, arc: &Arc<'_>, time: f64, by: Variation) -> (f64, f64) {
+        let Scene {
+            mass,
+            stiffness,
+            damping,
+            ..
+        } = *self.scene;
+        let (position, velocity) = arc.course.state_variation(time, by);
+        let Some(phase) = arc.phase else {
+            let rate = mass * arc.course.forcing_rate_at_rest(time);
+            return (
+                arc.side * (self.force - stiffness * position),
+                arc.side * rate,
+            );
+        };
+        let Start {
+            position: x,
+            velocity: v,
+        } = arc.at(time);
+        let forcing = mass * arc.course.forcing_at(time) - phase.law.force;
+        let acceleration =
+            (forcing - stiffness * x - damping * v - phase.contact_force(x, v)) / mass;
+        let (all, damped) = phase.slopes(x, v);
+        let change = |way: f64, speed: f64| (all - stiffness) * way + (damped - damping) * speed;
+        (
+            arc.side * change(position, velocity),
+            arc.side * change(v, acceleration),
+        )
+    }
+
     /// Changes of acceleration and contact force.
     fn force_changes(&self, scene: &Scene, motion: &Motion) -> (f64, f64) {
         let Some(phase) = motion.phase() else {
@@ -146,6 +280,6 @@ impl SensitivityRecorder {
         let (stiffness, damping) = phase.slopes(position, velocity);
         let resisting = stiffness * self.position + damping * self.velocity;
         let free = scene.stiffness * self.position + scene.damping * self.velocity;
-        ((self.force - resisting) / self.mass, resisting - free)
+        ((self.force - resisting) / scene.mass, resisting - free)
     }
 }

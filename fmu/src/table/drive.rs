@@ -31,6 +31,12 @@ fn power(machine: &Machine) -> f64 {
     machine.drive_power().0
 }
 
+/// Derivative of its power.
+fn power_change(of: &Tangent) -> f64 {
+    let (force, velocity) = (of.machine.drive_force().0, of.machine.sample().velocity);
+    of.drive_force * velocity + force * of.exact.velocity
+}
+
 /// All of it.
 #[rustfmt::skip]
 pub(super) const DRIVE: &[Row] = &[
@@ -43,15 +49,15 @@ pub(super) const DRIVE: &[Row] = &[
     fixed(26, "drive.takes.amplitude", slot::TAKES_AMPLITUDE, Kind::Boolean,
         "The input drive.amplitude leads the drive; otherwise excitation.amplitude does"),
     continuous(212, "drive.angle", shown_in(real(&units::ANGLE), "deg"), after(TURNED),
-        (|machine| machine.drive_angle().0, Tangent::of), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
+        (|machine| machine.drive_angle().0, |of, value| of.along(|_| 0.0, value)), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
         "Angle of the drive F0 cos(angle), counted on over the turns"),
     continuous(213, "drive.force", shown_in(real(&units::FORCE), "kN"), with_drive(FORCED),
-        (|machine| machine.drive_force().0, Tangent::of), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
+        (|machine| machine.drive_force().0, |of, value| of.along(|of| of.drive_force, value)), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
         "Force of the drive on the mass"),
     continuous(214, "drive.power", real(&units::POWER), with_drive(POWERED),
-        (power, Tangent::of), &[|machine| machine.drive_power().1, |machine| machine.drive_power().2],
+        (power, |of, value| of.along(power_change, value)), &[|machine| machine.drive_power().1, |machine| machine.drive_power().2],
         "Power that the drive gives to the mass, force times velocity"),
     continuous(215, "drive.work", real(&units::ENERGY), after(&[]),
-        (Machine::drive_work, Tangent::of), &[power, |machine| machine.drive_power().1],
+        (Machine::drive_work, |of, value| of.along(|of| of.exact.supplied - of.exact.work, value)), &[power, |machine| machine.drive_power().1],
         "Work of the drive on the mass since the start, the integral of drive.power"),
 ];

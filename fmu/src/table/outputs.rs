@@ -21,6 +21,12 @@ fn jerk(machine: &Machine) -> f64 {
     machine.sample().jerk
 }
 
+/// Derivative of the force on the frame.
+fn frame_force(of: &Tangent) -> f64 {
+    let (scene, of) = (of.machine.simulation().scene(), &of.exact);
+    scene.stiffness * of.position + scene.damping * of.velocity + of.contact_force
+}
+
 fn first_impact(machine: &Machine) -> Impact {
     machine.contacts().first.unwrap_or_default()
 }
@@ -77,25 +83,25 @@ pub(crate) const IMPACT: Clock<Machine> = Clock {
 #[rustfmt::skip]
 pub(super) const OUTPUTS: &[Row] = &[
     continuous(203, "contact.force", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), at_once(EVERYTHING),
-        (|machine| machine.sample().contact_force, |of, value| of.along(|of| of.contact_force, value)),
+        (|machine| machine.sample().contact_force, |of, value| of.along(|of| of.exact.contact_force, value)),
         &[|machine| machine.rates().contact_force.0, |machine| machine.rates().contact_force.1],
         "Force of stop and strip on the mass: F in m (x'' + base.acceleration) + b1 x' + k1 x + F = F0 cos(w t + phi) + force. Positive where it presses against positive x, negative where a stop below presses; it includes the additional damping in contact. While the phase is resting it is what holds the mass, while it is chatter the mean over the bounces"),
-    discrete(217, "contact.peak", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), (|machine| machine.contacts().peak, Tangent::of),
+    discrete(217, "contact.peak", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), (|machine| machine.contacts().peak, |of, value| of.along(|of| of.exact.peak, value)),
         "Largest contact.force in the last step, found between its ends, of a stop below by its size; at least 0, the blow of a rigid stop left out"),
-    discrete(218, "contact.impulse", nominal(real(&units::IMPULSE), 10.0), (|machine| machine.contacts().impulse, Tangent::of),
+    discrete(218, "contact.impulse", nominal(real(&units::IMPULSE), 10.0), (|machine| machine.contacts().impulse, |of, value| of.along(|of| of.exact.impulse, value)),
         "Integral of contact.force over the last step, the blows of a rigid stop included"),
     continuous(216, "frame.force", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), at_once(EVERYTHING),
-        (|machine| machine.frame_force().0, Tangent::of),
+        (|machine| machine.frame_force().0, |of, value| of.along(frame_force, value)),
         &[|machine| machine.frame_force().1, |machine| machine.frame_force().2],
         "Force of suspension, dampers, strip and stop on the frame, k1 x + b1 x' + contact.force"),
     continuous(200, "position", nominal(real(&units::LENGTH), 10.0), after(&["initial.position"]),
-        (|machine| machine.sample().position, |of, value| of.along(|of| of.position, value)), &[velocity, acceleration],
+        (|machine| machine.sample().position, |of, value| of.along(|of| of.exact.position, value)), &[velocity, acceleration],
         "Position of the mass"),
     continuous(201, "velocity", nominal(real(&units::VELOCITY), 10.0), after(&["initial.velocity"]),
-        (velocity, |of, value| of.along(|of| of.velocity, value)), &[acceleration, jerk],
+        (velocity, |of, value| of.along(|of| of.exact.velocity, value)), &[acceleration, jerk],
         "Velocity of the mass"),
     continuous(202, "acceleration", nominal(real(&units::ACCELERATION), 10.0), at_once(EVERYTHING),
-        (acceleration, |of, value| of.along(|of| of.acceleration, value)), &[jerk, |machine| machine.rates().snap],
+        (acceleration, |of, value| of.along(|of| of.exact.acceleration, value)), &[jerk, |machine| machine.rates().snap],
         "Acceleration of the mass; while the phase is chatter the mean over the bounces, 0"),
     row(204, "phase", Kind::Enumeration(&units::PHASE),
         Access::Integer { value: Machine::phase, depends: at_once(EVERYTHING) },
@@ -103,20 +109,20 @@ pub(super) const OUTPUTS: &[Row] = &[
     count(205, "impact.count", impacts,
         "Impacts since the start: upward crossings of the clearance with contact, and rebounds at a rigid stop that stands there; and those on a stop below"),
     discrete(207, "impact.time", real(&units::TIME),
-        (|machine| machine.last_impact().time, |of, value| of.along(|of| of.impact_time, value)),
+        (|machine| machine.last_impact().time, |of, value| of.along(|of| of.exact.impact_time, value)),
         "Time of the last impact, exact whatever the communication step; 0 before the first one"),
     discrete(208, "impact.velocity", nominal(real(&units::VELOCITY), 10.0),
-        (|machine| machine.last_impact().velocity, |of, value| of.along(|of| of.impact_velocity, value)),
+        (|machine| machine.last_impact().velocity, |of, value| of.along(|of| of.exact.impact_velocity, value)),
         "Velocity just before the last impact, towards the stop; 0 before the first one"),
     count(219, "impact.step.count", |machine| clamp_count(machine.contacts().impacts),
         "Impacts in the last step"),
-    discrete(220, "impact.step.first.time", real(&units::TIME), (|machine| first_impact(machine).time, Tangent::of),
+    discrete(220, "impact.step.first.time", real(&units::TIME), (|machine| first_impact(machine).time, |of, value| of.along(|of| of.exact.first.time, value)),
         "Time of the first impact in the last step; 0 without one"),
-    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| first_impact(machine).velocity, Tangent::of),
+    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| first_impact(machine).velocity, |of, value| of.along(|of| of.exact.first.velocity, value)),
         "Velocity just before the first impact in the last step; 0 without one"),
-    discrete(222, "impact.step.hardest.time", real(&units::TIME), (|machine| hardest_impact(machine).time, Tangent::of),
+    discrete(222, "impact.step.hardest.time", real(&units::TIME), (|machine| hardest_impact(machine).time, |of, value| of.along(|of| of.exact.hardest.time, value)),
         "Time of the impact with the highest velocity in the last step; 0 without one"),
-    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| hardest_impact(machine).velocity, Tangent::of),
+    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| hardest_impact(machine).velocity, |of, value| of.along(|of| of.exact.hardest.velocity, value)),
         "Velocity just before the hardest impact in the last step; 0 without one"),
     count(225, "impact.below.count", |machine| clamp_count(machine.simulation().impact_count_below()),
         "Impacts on the stop below since the start, of those that impact.count counts"),
@@ -125,15 +131,15 @@ pub(super) const OUTPUTS: &[Row] = &[
     count(224, "pierce.step.count", |machine| clamp_count(machine.contacts().pierced),
         "Strips pierced through in the last step"),
     continuous(209, "energy.mechanical", nominal(real(&units::ENERGY), 100.0), after(STORES),
-        (|machine| machine.energy().mechanical, |of, value| of.along(|of| of.mechanical, value)),
+        (|machine| machine.energy().mechanical, |of, value| of.along(|of| of.exact.mechanical, value)),
         &[|machine| machine.rates().mechanical.0, |machine| machine.rates().mechanical.1],
         "Kinetic energy and energy of the springs, that of a loaded stop included"),
     continuous(210, "energy.supplied", nominal(real(&units::ENERGY), 100.0), after(&[]),
-        (|machine| machine.energy().supplied, |of, value| of.along(|of| of.supplied, value)),
+        (|machine| machine.energy().supplied, |of, value| of.along(|of| of.exact.supplied, value)),
         &[|machine| machine.rates().supplied.0, |machine| machine.rates().supplied.1],
         "Work of the drive, of the external force, of the moving frame and of tuning since the start"),
     continuous(211, "energy.dissipated", nominal(real(&units::ENERGY), 100.0), after(&[]),
-        (|machine| machine.energy().dissipated, |of, value| of.along(|of| of.dissipated, value)),
+        (|machine| machine.energy().dissipated, |of, value| of.along(|of| of.exact.dissipated, value)),
         &[|machine| machine.rates().dissipated.0, |machine| machine.rates().dissipated.1],
         "Energy lost to damping, friction, forming and impacts on rigid stops since the start"),
 ];

@@ -14,7 +14,7 @@ const STOP_PHASES: &[PhaseKind] = &[PhaseKind::Stop, PhaseKind::Released, PhaseK
 fn peak_on_arc(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64), value: impl Fn(f64) -> f64) -> f64 {
     let rate = |phase: &Phase| (phase.law.stiffness.abs() / scene.mass).sqrt();
     let rate = scene.excitation.frequency + arc.phase.map_or(0.0, rate);
-    largest_value((0.0, elapsed), rate, value)
+    largest_value((0.0, elapsed), rate, value).1
 }
 
 /// Force of the drive in N, so many seconds after the start of an arc.
