@@ -253,3 +253,36 @@ fn beside_another_hardest_impact_and_another_phase() {
         assert_close(&found.expect("available"), &expected, 2e-6, "force");
     }
 }
+
+/// With an unloading chain the energy that is stored bends at its knees, one of which is 0.001 away.
+#[test]
+fn stored_energy_beside_a_knee() {
+    let unit = |position: f64| {
+        let unit = Unit::new();
+        unit.set_all(&[
+            ("stop.model", 3.0),
+            ("stop.loading.stiffness[1]", 25.0),
+            ("stop.unloading.count", 2.0),
+            ("stop.unloading.stiffness[1]", 6.0),
+            ("stop.unloading.from[2]", 0.3),
+            ("stop.unloading.stiffness[2]", 25.0),
+            ("piercing.thickness", 0.0),
+            ("piercing.travel", 0.0),
+            ("clearance", 1.0),
+            ("initial.position", position),
+            ("initial.velocity", 2.0),
+        ]);
+        unit.enter(0.0);
+        unit
+    };
+    let energy = ["energy.mechanical"];
+    for position in [1.299, 1.301] {
+        let by = |name| unit(position).derivatives(&energy, &[(name, 1.0)]);
+        let expected = difference(|change| outputs(&unit(position + change), energy), 1e-6);
+        let found = by("initial.position").expect("available");
+        assert_close(&found, &expected, 1e-6, "position");
+        // The stop's share has the opposite sign, the suspension's is k1 x.
+        let found = by("clearance").expect("available");
+        assert_close(&found, &[position - expected[0]], 1e-6, "clearance");
+    }
+}

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use softstop_fmi::variable::Access;
-use softstop_fmi::{Advance, Derivatives, Events, Imprint, Known, Row, Unit};
+use softstop_fmi::{Advance, Derivatives, Events, Imprint, Known, Row, Unit, slope};
 use softstop_units::Drive;
 
 const LOAD: usize = 1;
@@ -35,4 +35,24 @@ fn of_the_speed_by_the_work_of_the_load() {
         let found = tangent(&along.expect("a derivative"), value);
         assert_relative_eq!(found * size, -1.0, max_relative = 1e-6);
     }
+}
+
+/// A bend, a jump or an end of the range beside the argument keep the differences off; at the argument there is none.
+#[test]
+fn narrow_enough_or_none() {
+    for beside in [1e-1, 1e-3, 1e-5, -1e-5] {
+        let bent = |x: f64| (x - beside).abs() + x.sin();
+        let found = slope(bent(0.0), 1.0, |x| Some(bent(x)));
+        assert_relative_eq!(found, 1.0 - beside.signum(), epsilon = 1e-6);
+        let jumps = |x: f64| f64::from(u8::from(x > beside)) + x.sin();
+        let found = slope(jumps(0.0), 1.0, |x| Some(jumps(x)));
+        assert_relative_eq!(found, 1.0, epsilon = 1e-6);
+        let found = slope(0.0, 1.0, |x| (x < beside.abs()).then(|| x.sin()));
+        assert_relative_eq!(found, 1.0, epsilon = 1e-6);
+    }
+    let one_sided = slope(0.0, 1.0, |x| (x >= 0.0).then(|| x.sin()));
+    assert_relative_eq!(one_sided, 1.0, epsilon = 1e-6);
+    assert!(slope(0.0, 1.0, |x| Some(x.abs())).is_nan());
+    assert!(slope(0.0, 1.0, |x| Some(x.signum())).is_nan());
+    assert!(slope(0.0, 1.0, |_| None).is_nan());
 }

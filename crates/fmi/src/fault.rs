@@ -78,6 +78,8 @@ pub(crate) enum Fault {
     },
     #[error("{0} is no real output: it has no derivative")]
     NoUnknown(&'static str),
+    #[error("{0} has no derivative along this direction: it jumps, bends or overflows here")]
+    NoDerivative(&'static str),
     #[error(
         "no derivative by {name} is available: after initialisation there are those by {available}"
     )]

@@ -8,6 +8,8 @@
 //! For an importer that integrates they are those of the present outputs by its states and the continuous inputs, in event
 //! mode by tunable parameters as well, under the law that holds.
 
+use std::cell::Cell;
+
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
@@ -18,6 +20,12 @@ use crate::variable::{Access, Reading, Slot, Value};
 
 /// Widths that a difference is tried with.
 const WIDTHS: u32 = 8;
+/// Share of a derivative by which differences to both sides may disagree.
+const AGREEMENT: f64 = 1e-7;
+/// Share of a value, over the first width, that rounding may bring.
+const ROUNDING: f64 = 1e-10;
+/// How many times as far the differences may disagree that agree best, if no width lets them agree.
+const LOOSE: f64 = 100.0;
 
 impl<U: Unit> Instance<U> {
     /// The derivatives of `unknowns` along the direction `seed` of `knowns`.
@@ -39,10 +47,13 @@ impl<U: Unit> Instance<U> {
         let unit = present.as_ref().unwrap_or(unit);
         let (direction, parameters) = self.direction(unit, knowns, seed)?;
         let along = unit.tangent(&direction)?;
-        for (&(output, tangent), value) in outputs.iter().zip(sensitivity) {
+        for (&(name, (output, tangent)), value) in outputs.iter().zip(sensitivity) {
             *value = tangent(&along, output);
             for &(parameter, slot, seed) in &parameters {
-                *value += seed * self.by_parameter(unit, parameter, slot, output)?;
+                *value += seed * self.by_parameter(unit, parameter, slot, output);
+            }
+            if !value.is_finite() {
+                return Err(Fault::NoDerivative(name));
             }
         }
         Ok(())
@@ -124,29 +135,26 @@ impl<U: Unit> Instance<U> {
 
     /// The derivative of an output at the start, or of an importer that integrates now, by a parameter, of which such
     /// outputs are elementary functions. Differences keep to one side where the law of the motion, or the range of the
-    /// parameter, ends.
-    fn by_parameter(
-        &self,
-        unit: &U,
-        parameter: &Row<U>,
-        slot: Slot,
-        output: Value<U>,
-    ) -> Result<f64, Fault> {
+    /// parameter, ends; by a parameter that cannot change at all it is zero.
+    fn by_parameter(&self, unit: &U, parameter: &Row<U>, slot: Slot, output: Value<U>) -> f64 {
         let (value, here) = (self.values[slot.0], output(unit));
         let width = if value == 0.0 {
             1e-3
         } else {
             0.01 * value.abs()
         };
-        Ok(slope(here, width, |step| {
+        let can_change = Cell::new(false);
+        let slope = slope(here, width, |step| {
             let moved = value + step;
             let moved = parameter
                 .kind
                 .contains(moved)
                 .then(|| self.with_parameter(unit, slot, moved));
             let moved = moved?.ok()?;
+            can_change.set(true);
             (moved.law() == unit.law()).then(|| output(&moved))
-        }))
+        });
+        if can_change.get() { slope } else { 0.0 }
     }
 
     /// The unit with another value of a parameter.
@@ -164,42 +172,65 @@ impl<U: Unit> Instance<U> {
 }
 
 /// The derivative of a function by differences extrapolated to width zero (Richardson 1911), within some 1e-10 of the
-/// true one: `here` is its value, `at` that after a change of its argument, none where it goes on otherwise. Then they
-/// keep to one side or become narrower; of what cannot be changed at all the derivative is zero.
+/// true one: `here` is its value, `at` that after a change of its argument, none where it goes on otherwise. They become
+/// narrower until those to both sides agree, or keep to the only side that there is. NaN where no width is narrow enough.
 pub fn slope(here: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 {
+    let rounding = ROUNDING * here.abs() / width;
+    let mut best = (f64::INFINITY, f64::NAN);
     for _ in 0..WIDTHS {
-        let central = |n: f64| Some((at(n * width)? - at(-n * width)?) / (2.0 * n * width));
-        if let (Some(one), Some(two), Some(four)) = (central(0.25), central(0.5), central(1.0)) {
-            let (fine, coarse) = ((4.0 * one - two) / 3.0, (4.0 * two - four) / 3.0);
-            return (16.0 * fine - coarse) / 15.0;
-        }
-        for side in [1.0, -1.0] {
-            let one_sided = |n: f64| Some((at(side * n * width)? - here) / (side * n * width));
-            if let (Some(a), Some(b), Some(c), Some(d)) = (
-                one_sided(0.125),
-                one_sided(0.25),
-                one_sided(0.5),
-                one_sided(1.0),
-            ) {
-                let first = [2.0 * a - b, 2.0 * b - c, 2.0 * c - d];
-                let second = [
-                    (4.0 * first[0] - first[1]) / 3.0,
-                    (4.0 * first[1] - first[2]) / 3.0,
-                ];
-                return (8.0 * second[0] - second[1]) / 7.0;
+        let side = |width: f64| -> Option<[f64; 4]> {
+            let mut slopes = [0.125 * width, 0.25 * width, 0.5 * width, width];
+            for step in &mut slopes {
+                *step = (at(*step)? - here) / *step;
+            }
+            Some(slopes)
+        };
+        let found = match (side(width), side(-width)) {
+            (Some(right), Some(left)) => {
+                let mean = std::array::from_fn(|k| 0.5 * (right[k] + left[k]));
+                let gap = extrapolated(right, 2.0).0 - extrapolated(left, 2.0).0;
+                let (finest, finer) = extrapolated(mean, 4.0);
+                Some((gap.abs().max((finest - finer).abs()), finest))
+            }
+            (one, other) => one.or(other).map(|side| {
+                let (finest, finer) = extrapolated(side, 2.0);
+                ((finest - finer).abs(), finest)
+            }),
+        };
+        if let Some((gap, slope)) = found {
+            // In parts of what may pass.
+            let gap = gap / (AGREEMENT * slope.abs() + rounding);
+            if gap <= 1.0 || gap.is_nan() {
+                return slope;
+            }
+            if gap < best.0 {
+                best = (gap, slope);
             }
         }
         width *= 0.1;
     }
-    0.0
+    if best.0 <= LOOSE { best.1 } else { f64::NAN }
 }
 
-/// How an unknown and its derivative are read.
-fn unknown<U: Unit>(reference: u32) -> Result<Reading<U, U::Tangent>, Fault> {
+/// The limit of differences of which each is half as wide as the next one, and that of all but the widest; the first term
+/// of their errors falls by `ratio` from one to the next.
+fn extrapolated(mut slopes: [f64; 4], ratio: f64) -> (f64, f64) {
+    let (mut factor, mut before) = (1.0, slopes[0]);
+    for count in (1..slopes.len()).rev() {
+        (factor, before) = (factor * ratio, slopes[0]);
+        for k in 0..count {
+            slopes[k] = (factor * slopes[k] - slopes[k + 1]) / (factor - 1.0);
+        }
+    }
+    (slopes[0], before)
+}
+
+/// The name of an unknown, and how it and its derivative are read.
+fn unknown<U: Unit>(reference: u32) -> Result<(&'static str, Reading<U, U::Tangent>), Fault> {
     let variable = find::<U>(reference, Type::REAL)?;
     match variable.access {
         Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent, .. } => {
-            Ok((value, tangent))
+            Ok((variable.name, (value, tangent)))
         }
         _ => Err(Fault::NoUnknown(variable.name)),
     }
