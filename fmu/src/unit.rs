@@ -103,6 +103,10 @@ impl Unit for Machine {
         self.simulation().time()
     }
 
+    fn check_values(values: &[f64]) -> Outcome<()> {
+        Ok(StartValues::of(values).scene().validate()?)
+    }
+
     fn tune(&mut self, values: &[f64]) -> Outcome<()> {
         let values = StartValues::of(values);
         self.close();

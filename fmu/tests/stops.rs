@@ -132,6 +132,45 @@ fn a_mass_between_two_stops() {
         pressed_up && below >= 10.0 && all >= below + 10.0,
         "{all} {below}"
     );
-    let words = ["stop.below.clearance = -0.5", "must be > 0"];
-    unit.refused(unit.set("stop.below.clearance", -0.5), &words);
+}
+
+/// Two clearances set one by one are checked together, by the call that needs them: the order does not count, and what
+/// does not go together leaves the machine as it was.
+#[test]
+fn two_clearances_in_any_order() {
+    let names = ["clearance", "stop.below.clearance"];
+    let values = [-1.5, 3.0];
+    let begun = || {
+        let unit = unit(RIGID);
+        unit.set_all(&[("stop.model", 2.0), ("stop.below.model", 2.0)]);
+        unit.set_all(&names.map(|name| (name, 1.0)));
+        unit.set_all(&[("initial.position", 0.0), ("initial.velocity", 3.0)]);
+        unit.begin();
+        assert_eq!(unit.step(0.0, 0.1), OK);
+        unit
+    };
+    let ends = [[0, 1], [1, 0]].map(|order| {
+        let unit = begun();
+        for index in order {
+            assert_eq!(unit.set(names[index], values[index]), OK);
+        }
+        assert_eq!(unit.step(0.1, 0.5), OK);
+        assert_eq!(names.map(|name| unit.get(name)), values);
+        unit.get("position")
+    });
+    assert_eq!(ends[0], ends[1]);
+    let (unit, untouched) = (begun(), begun());
+    let words = [
+        "fmi2DoStep",
+        "clearance = -1.5",
+        "stop.below.clearance = 1",
+        "must be > 0",
+    ];
+    assert_eq!(unit.set("clearance", values[0]), OK);
+    unit.refused(unit.step(0.1, 0.5), &words);
+    assert_eq!(unit.get("clearance"), 1.0);
+    for unit in [&unit, &untouched] {
+        assert_eq!(unit.step(0.1, 0.5), OK);
+    }
+    assert_eq!(unit.get("position"), untouched.get("position"));
 }

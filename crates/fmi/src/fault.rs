@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use crate::lifecycle::Lifecycle;
+use crate::standard::Standard;
 
 /// Why a call was refused. The text names the thing; the caller puts the function's name before it.
 #[derive(Debug, thiserror::Error)]
@@ -51,6 +52,9 @@ pub(crate) enum Fault {
     /// What the unit says: values that do not go together, a motion that cannot be carried on.
     #[error(transparent)]
     Unit(#[from] Box<dyn Error>),
+    /// Values that were set one by one and do not go together; those before the first of them hold again.
+    #[error("{0}; the values before hold again")]
+    Unfit(Box<dyn Error>),
     /// The step does not start where the last one ended; `tolerance` in s passes for rounding.
     #[error(
         "currentCommunicationPoint = {point} s: the last step ended at {present} s (difference allowed: {tolerance:e} s)"
@@ -128,9 +132,10 @@ pub(crate) enum Fault {
 
 impl Fault {
     /// The status that the call returns.
-    pub(crate) const fn status(&self) -> Status {
+    pub(crate) const fn status(&self, standard: Standard) -> Status {
         match self {
             Self::Discarded { .. } | Self::Refused(_) => Status::Discard,
+            Self::Unfit(_) if matches!(standard, Standard::Fmi3) => Status::Discard,
             _ => Status::Error,
         }
     }

@@ -1,5 +1,7 @@
 //! One instance of a unit: its lifecycle, its values, and the motion behind them.
 
+use std::mem;
+
 use serde::{Deserialize, Serialize};
 
 use crate::fault::{Fault, Status};
@@ -21,6 +23,9 @@ pub(crate) struct Instance<U: Unit> {
     pub(crate) unit: Option<U>,
     /// Values were set that have not reached the unit yet.
     pub(crate) tuned: bool,
+    /// The values before those that do not go together so far.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) sound: Option<Vec<f64>>,
     /// The last step was discarded.
     pub(crate) fell_short: bool,
     /// The unit and the signals with which it began, if it can be repeated.
@@ -66,6 +71,7 @@ impl<U: Unit> Clone for Instance<U> {
             experiment,
             unit,
             tuned,
+            sound,
             fell_short,
             retreat,
             awaits,
@@ -79,6 +85,7 @@ impl<U: Unit> Clone for Instance<U> {
         self.experiment = *experiment;
         self.unit.clone_from(unit);
         self.tuned = *tuned;
+        self.sound.clone_from(sound);
         self.fell_short = *fell_short;
         self.retreat.clone_from(retreat);
         self.awaits = *awaits;
@@ -98,6 +105,7 @@ impl<U: Unit> Instance<U> {
             experiment: None,
             unit: None,
             tuned: false,
+            sound: None,
             fell_short: false,
             retreat: None,
             awaits: false,
@@ -217,6 +225,7 @@ impl<U: Unit> Instance<U> {
             values,
             signals,
             tuned,
+            sound,
             awaits,
             ..
         } = self;
@@ -231,6 +240,10 @@ impl<U: Unit> Instance<U> {
         };
         if *awaits {
             return Ok(unit);
+        }
+        if let Some(sound) = sound.take() {
+            let unfit = mem::replace(values, sound);
+            U::check_values(&unfit).map_err(Fault::Unfit)?;
         }
         if *tuned {
             unit.tune(values)?;

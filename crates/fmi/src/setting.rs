@@ -1,12 +1,14 @@
 //! Setting the values of an instance.
 
+use std::mem;
+
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::reading::{Type, find};
 use crate::signal::{Derivatives, Signal};
 use crate::solving::number_of_state;
-use crate::unit::{Events, Row, Unit};
+use crate::unit::{Events, Outcome, Row, Unit};
 use crate::variable::Access;
 
 impl<U: Unit> Instance<U> {
@@ -89,21 +91,32 @@ impl<U: Unit> Instance<U> {
         }
     }
 
-    /// Takes over values, unless the unit under way cannot go on with them.
+    /// Takes over values, unless the unit under way cannot go on with them. Those that do not go together may yet with
+    /// what is set next.
     fn adopt(&mut self, values: Vec<f64>) -> Result<(), Fault> {
+        let before = mem::replace(&mut self.values, values);
         if self.lifecycle.is_under_way()
             && let Some(unit) = &self.unit
         {
-            let mut unit = unit.clone();
-            if self.awaits {
-                unit.pass_event(&mut Events::default())?;
+            if U::check_values(&self.values).is_err() {
+                self.sound.get_or_insert(before);
+            } else if let Err(error) = self.try_to_tune(unit.clone()) {
+                self.values = before;
+                return Err(error.into());
+            } else {
+                self.sound = None;
             }
-            unit.tune(&values)?;
         }
-        self.values = values;
         self.tuned = true;
         self.begin_anew();
         Ok(())
+    }
+
+    fn try_to_tune(&self, mut unit: U) -> Outcome<()> {
+        if self.awaits {
+            unit.pass_event(&mut Events::default())?;
+        }
+        unit.tune(&self.values)
     }
 
     /// What is set before the first step makes another beginning; a unit under way takes it over later.

@@ -43,6 +43,11 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
     /// Where it is, in s.
     fn time(&self) -> f64;
 
+    /// Whether values of parameters go together, wherever the unit is.
+    fn check_values(_values: &[f64]) -> Outcome<()> {
+        Ok(())
+    }
+
     /// Takes over values that were set on the way.
     fn tune(&mut self, values: &[f64]) -> Outcome<()>;
 

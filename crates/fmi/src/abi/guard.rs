@@ -82,7 +82,7 @@ pub(crate) fn guarded<U: Unit>(
     match outcome {
         Ok(()) => Status::Ok as c_int,
         Err(fault) => {
-            let status = fault.status();
+            let status = fault.status(component.importer.standard);
             component.log(status, Category::Errors, &format!("{call}: {fault}"));
             if status == Status::Error {
                 component.note_error();
