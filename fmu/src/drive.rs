@@ -6,11 +6,11 @@
 //! polynomial of degree 7 about the middle. The error of the force is of order 8 in the length of a piece, and below
 //! 2e-12 of the amplitude.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
-use softstop::Excitation;
 use softstop::internals::Polynomial;
+use softstop::{Excitation, Simulation};
 use softstop_fmi::Derivatives;
 
 /// Length of a piece in rad.
@@ -25,8 +25,9 @@ pub(crate) struct Drive {
     pub takes_amplitude: bool,
     /// Frequency in rad/s of the parameters.
     pub frequency: f64,
-    /// Angle in rad at the time `since` in s.
+    /// Angle in rad at the time `since` in s, without so many whole turns where they would take digits of it.
     angle: f64,
+    turns: f64,
     since: f64,
     /// Speed in rad/s and amplitude in N from there on.
     speed: Polynomial,
@@ -49,35 +50,62 @@ impl Drive {
             takes_amplitude: false,
             frequency: speed,
             angle,
+            turns: 0.0,
             since,
             speed: Polynomial::linear(speed, 0.0),
             amplitude: Polynomial::linear(amplitude, 0.0),
         }
     }
 
-    /// The drive at the start time: it begins at its phase where the input leads its speed, and at rest until the inputs
-    /// are known.
-    pub fn begin(of: &Excitation, time: f64, (takes_speed, takes_amplitude): (bool, bool)) -> Self {
-        let speed = if takes_speed { 0.0 } else { of.frequency };
-        let amplitude = if takes_amplitude { 0.0 } else { of.amplitude };
+    /// The drive of a machine at the start time: it begins at its phase where the input leads its speed, and at rest until
+    /// the inputs are known.
+    pub fn begin(of: &Simulation, (takes_speed, takes_amplitude): (bool, bool)) -> Self {
+        let drive = of.scene().excitation;
+        let (angle, whole, speed) = if takes_speed {
+            let phase = drive.reduced_phase();
+            (phase, phase, 0.0)
+        } else {
+            let angle = of.reduced_drive_angle();
+            (angle, of.drive_angle(), drive.frequency)
+        };
+        let amplitude = if takes_amplitude {
+            0.0
+        } else {
+            drive.amplitude
+        };
         Self {
             takes_speed,
             takes_amplitude,
-            frequency: of.frequency,
-            ..Self::new(of.reduced_phase() + speed * time, time, speed, amplitude)
+            frequency: drive.frequency,
+            turns: ((whole - angle) / TAU).round(),
+            ..Self::new(angle, of.time(), speed, amplitude)
         }
     }
 
     /// Lets it go on from `now` with another speed.
     pub fn set_speed(&mut self, now: f64, speed: Derivatives) {
-        (self.angle, self.amplitude) = (self.angle_at(now), self.amplitude_at(now));
-        (self.since, self.speed) = (now, Polynomial::new(speed));
+        self.go_on_from(now);
+        self.speed = Polynomial::new(speed);
     }
 
     /// Lets it go on from `now` with another amplitude.
     pub fn set_amplitude(&mut self, now: f64, amplitude: Derivatives) {
-        (self.angle, self.speed) = (self.angle_at(now), self.speed_at(now));
-        (self.since, self.amplitude) = (now, Polynomial::new(amplitude));
+        self.go_on_from(now);
+        self.amplitude = Polynomial::new(amplitude);
+    }
+
+    /// Counts the time from `now` on.
+    fn go_on_from(&mut self, now: f64) {
+        let phase = self.angle_at(now);
+        (self.speed, self.amplitude) = (self.speed_at(now), self.amplitude_at(now));
+        self.angle = Excitation {
+            amplitude: 0.0,
+            frequency: self.frequency,
+            phase,
+        }
+        .reduced_phase();
+        self.turns += ((phase - self.angle) / TAU).round();
+        self.since = now;
     }
 
     /// Goes on from `now` with other parameters, where the inputs do not say it.
@@ -101,13 +129,23 @@ impl Drive {
         self.amplitude.shifted(time - self.since)
     }
 
-    /// The angle in rad at a time.
+    /// The angle in rad at a time, over all turns.
+    pub fn whole_angle_at(&self, time: f64) -> f64 {
+        TAU.mul_add(self.turns, self.angle_at(time))
+    }
+
+    /// The angle in rad at a time, without whole turns before.
     pub fn angle_at(&self, time: f64) -> f64 {
         let (t, terms) = (time - self.since, self.speed.derivatives().iter());
         let turned = terms.enumerate().rev().fold(0.0, |sum, (k, derivative)| {
             (derivative + sum) * (t / (k + 1) as f64)
         });
         self.angle + turned
+    }
+
+    /// True if it turns with a constant speed and amplitude, as an engine's drive does.
+    pub fn is_harmonic(&self) -> bool {
+        !self.varies() && self.speed.value() != 0.0
     }
 
     /// True if it has to be followed in pieces.

@@ -125,9 +125,9 @@ impl Machine {
     /// Value and first two derivatives of the force of the drive, in N.
     pub(crate) fn drive_force(&self) -> (f64, f64, f64) {
         let of = match &self.more.drive {
-            Some(drive) => drive.force_at(self.simulation.time()),
-            None => {
-                let angle = self.simulation.drive_angle();
+            Some(drive) if !drive.is_harmonic() => drive.force_at(self.simulation.time()),
+            _ => {
+                let angle = self.simulation.reduced_drive_angle();
                 let of = self.simulation.scene().excitation;
                 Drive::new(angle, 0.0, of.frequency, of.amplitude).force_at(0.0)
             }
@@ -158,7 +158,7 @@ impl Machine {
             Some(drive) => {
                 let now = self.simulation.time();
                 let speed = drive.speed_at(now);
-                (drive.angle_at(now), speed.value(), speed.rate())
+                (drive.whole_angle_at(now), speed.value(), speed.rate())
             }
             None => {
                 let angle = TAU.mul_add(self.more.turns, self.simulation.drive_angle());

@@ -92,7 +92,7 @@ impl Unit for Machine {
         let takes = |slot| values.number(slot) != 0;
         let takes = (takes(slot::TAKES_SPEED), takes(slot::TAKES_AMPLITUDE));
         if takes.0 || takes.1 {
-            let drive = Drive::begin(&scene.excitation, time, takes);
+            let drive = Drive::begin(machine.simulation(), takes);
             machine.more.drive = Some(drive.into());
             machine.push()?;
         }

@@ -157,6 +157,55 @@ fn ramps_are_limits_of_steps() {
     assert_near(errors[0] / errors[1], 4.0, 0.02);
 }
 
+/// A drive that has turned by 1.2e9 rad, at the start or since, pushes as one at the same angle without these turns.
+#[test]
+fn a_large_drive_angle_costs_no_digits() {
+    const WAITED: f64 = (1_u64 << 30) as f64;
+    let rest = |takes: &[&str]| {
+        let unit = Unit::new();
+        unit.set_all(&[("initial.position", 0.0), ("initial.velocity", 0.0)]);
+        takes
+            .iter()
+            .for_each(|name| assert_eq!(unit.set(name, 1.0), OK));
+        unit
+    };
+    // Exactly so many radians.
+    let angle = WAITED * Unit::new().get("excitation.frequency");
+    let near = rest(&[]);
+    assert_eq!(
+        near.set("excitation.phase", angle.sin().atan2(angle.cos())),
+        OK
+    );
+    near.begin();
+    assert_eq!(near.step(0.0, 8.0), OK);
+    let later = [&[][..], &["drive.takes.amplitude"]].map(|takes| {
+        let unit = rest(takes);
+        unit.enter(WAITED);
+        assert_eq!(unit.leave(), OK);
+        assert_eq!(unit.set("drive.amplitude", 1.0), OK);
+        unit
+    });
+    let turned = rest(&["drive.takes.speed", "drive.takes.amplitude"]);
+    turned.begin();
+    assert_eq!(turned.set("drive.speed", angle / WAITED), OK);
+    assert_eq!(turned.step(0.0, WAITED), OK);
+    assert_eq!(turned.set("drive.amplitude", 1.0), OK);
+    for unit in later.iter().chain([&turned]) {
+        assert_eq!(unit.step(WAITED, 8.0), OK);
+        for name in [
+            "position",
+            "velocity",
+            "drive.force",
+            "drive.power",
+            "drive.work",
+        ] {
+            assert_near(unit.get(name), near.get(name), 1e-12);
+        }
+        let whole = angle + 8.0 * near.get("excitation.frequency");
+        assert_near(unit.get("drive.angle"), whole, 5e-7);
+    }
+}
+
 /// The drive's work is the integral of its power; the balance closes over the whole unit.
 #[test]
 fn work_of_the_drive_and_balance() {

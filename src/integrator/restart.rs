@@ -121,9 +121,13 @@ impl Motion {
 impl Simulation {
     /// The drive angle in rad; it begins anew below 2 pi where frequency or phase are set.
     pub fn drive_angle(&self) -> f64 {
+        TAU.mul_add(self.motion.now().cycles, self.reduced_drive_angle())
+    }
+
+    /// The drive angle in rad without the whole turns since it began, which would take digits of it.
+    pub fn reduced_drive_angle(&self) -> f64 {
         let (clock, now) = (self.motion.clock(), self.motion.now());
-        let turned = self.scene.excitation.frequency * now.offset + clock.phase;
-        TAU.mul_add(now.cycles, turned)
+        self.scene.excitation.frequency * now.offset + clock.phase
     }
 
     /// Takes another drive and another external force, by its derivatives as in [`Simulation::set_force`], from now on: of

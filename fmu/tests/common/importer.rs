@@ -173,6 +173,11 @@ impl Unit {
     /// Leads through initialisation; returns the status of its end.
     pub fn try_to_begin(&self) -> c_int {
         self.enter(0.0);
+        self.leave()
+    }
+
+    /// Leaves initialisation.
+    pub fn leave(&self) -> c_int {
         unsafe { fmi2ExitInitializationMode(self.component) }
     }
 
