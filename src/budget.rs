@@ -73,8 +73,7 @@ pub fn is_spent() -> bool {
 }
 
 /// The budget of one thread for a piece of work whose parts run on several threads. Each part may cost what was left
-/// before; all are charged together in the end. So whether the budget is spent depends on the work alone, not on the
-/// threads.
+/// before; all are charged together in the end. So whether the budget is spent depends on the work alone, not on the threads.
 #[derive(Debug)]
 pub struct SharedBudget {
     left: u64,

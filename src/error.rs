@@ -219,8 +219,7 @@ fn line_prefix(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
 }
 
-/// The end of an error message: how revolutions per minute are stated, if `text` speaks of them in place of a number;
-/// else empty.
+/// The end of an error message: how revolutions per minute are stated, if `text` speaks of them; else empty.
 pub fn rpm_value_hint(text: &str) -> &'static str {
     match text.contains("rpm") {
         true => {

@@ -177,8 +177,7 @@ impl ArcScan<'_> {
         }
     }
 
-    /// True if a bound on the fourth derivatives, which settles most scan windows, proves all guards to be below zero
-    /// between two nodes.
+    /// True if a bound on the fourth derivatives, which settles most windows, proves all guards below zero between two nodes.
     #[inline(always)]
     fn stays_below(
         &self,
@@ -226,8 +225,7 @@ impl ArcScan<'_> {
         }
     }
 
-    /// The first crossing between two nodes, by halving the time between them until one Taylor polynomial reaches over
-    /// it.
+    /// The first crossing between two nodes, by halving the time between them until one Taylor polynomial reaches over it.
     #[inline(never)]
     fn search_by_halving(
         &self,
@@ -254,8 +252,7 @@ impl ArcScan<'_> {
             .or_else(|| self.search_by_halving(&middle, right, bounds))
     }
 
-    /// The first crossing between two nodes that one Taylor polynomial reaches over, expanded only where a guard may
-    /// rise more than once.
+    /// The first crossing between two nodes that one Taylor polynomial reaches over, expanded where a guard may rise twice.
     fn search_window(
         &self,
         left: &NodeDerivatives,

@@ -128,8 +128,7 @@ impl GuardPolynomial<'_> {
     }
 }
 
-/// What is proven of the rises of a guard between two points, where |g''''| <= `bound` and `rounding` cannot be told
-/// from zero.
+/// What is proven of the rises of a guard between two points, where |g''''| <= `bound` and `rounding` cannot be told from zero.
 pub(super) fn judge_interval(
     left: GuardPoint,
     right: GuardPoint,
@@ -231,8 +230,7 @@ fn zero_by_inverse_hermite(low: GuardPoint, high: GuardPoint) -> Option<f64> {
     steep.then_some(low.at + share * span)
 }
 
-/// The verdict on a rise where at most one is possible: a rise if the values at the ends have opposite signs, else
-/// none.
+/// The verdict on a rise where at most one is possible: a rise if the values at the ends have opposite signs, else none.
 fn rise_by_ends(left: GuardPoint, right: GuardPoint) -> RiseVerdict {
     if bracket_of_rise(left, right).is_some() {
         RiseVerdict::Rise

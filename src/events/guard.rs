@@ -2,8 +2,7 @@
 
 use crate::flow::{ArcSolution, DEGREE, ScanNode, TaylorPolynomials};
 
-/// The event function that ends a phase: g = `position` x + `velocity` v + `forcing` q - `level`, when it rises through
-/// zero.
+/// The event function that ends a phase: g = `position` x + `velocity` v + `forcing` q - `level`, when it rises through zero.
 ///
 /// q is the forcing per mass, p(t) + A cos(angle): the force that is not the phase's own spring or damper.
 #[derive(Debug, Clone, Copy, PartialEq)]

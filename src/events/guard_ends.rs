@@ -53,8 +53,7 @@ impl GuardEnds {
         g0 <= 0.0 && g1 <= 0.0 && bound * span * span * 0.125 - g0.min(g1) <= rounding
     }
 
-    /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`, or everywhere but at its left end
-    /// if g = 0 there.
+    /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`, but for its left end if g = 0 there.
     ///
     /// The cubic Hermite interpolant is off by at most bound s^2 (span - s)^2 / 24, that is bound span^4 / 384, and
     /// lies below its largest Bernstein coefficient. From zero on it is u = s / span times a parabola, and off by at

@@ -135,8 +135,7 @@ impl NodeDerivatives {
     }
 }
 
-/// True if the node derivatives at the departure alone prove that no guard rises up to `until`, at most a scan window
-/// later.
+/// True if the node derivatives at the departure alone prove that no guard rises up to `until`, at most a scan window later.
 pub(crate) fn is_clear_by_start_derivatives(
     course: &ArcSolution,
     guards: &[Guard],

@@ -88,8 +88,7 @@ impl ArcSolution {
         Self::with_form(flow, departure, Form::TaylorStep(Arc::new(segment)))
     }
 
-    /// Replaces this motion by one Taylor step of `flow` together with a power law, from `deflection` m beyond its
-    /// face.
+    /// Replaces this motion by one Taylor step of `flow` together with a power law, from `deflection` m beyond its face.
     pub(crate) fn restart_nonlinear(
         &mut self,
         flow: &LinearLaw,
@@ -135,8 +134,7 @@ impl ArcSolution {
         }
     }
 
-    /// The arc of a mass held at the departure's position while the drive turns; under a forcing of degree 2 or higher,
-    /// for one Taylor step.
+    /// The arc of a mass held at the departure's position while the drive turns; one Taylor step under curved forcing.
     pub fn held(flow: &LinearLaw, departure: Departure) -> Self {
         let form = if departure.forcing.is_linear() {
             Form::Held
@@ -270,8 +268,7 @@ impl ArcSolution {
         }
     }
 
-    /// Bounds in m/s^2 on the forcing per mass, drive included, to the end of time: infinite if the external force
-    /// changes.
+    /// Bounds in m/s^2 on the forcing per mass, drive included, to the end of time: infinite if the external force changes.
     pub(crate) fn forcing_range(&self) -> (f64, f64) {
         let forcing = &self.departure.forcing;
         if forcing.rate() == 0.0 {

@@ -1,5 +1,4 @@
-//! Chooses the form of a Taylor step under a power law: in time, in regularised time, on the slow manifold, or without
-//! the power law.
+//! Chooses the form of a Taylor step under a power law: in time, in regularised time, on the slow manifold, or without that law.
 
 use super::convergence::{convergence_reach, leading_convergence_reach};
 use super::power_law::PowerLaw;
@@ -32,8 +31,7 @@ impl FormLimits {
 }
 
 impl TaylorStep {
-    /// The Taylor step under a power law from a departure that lies `deflection` m beyond the face, in the form that
-    /// reaches furthest.
+    /// The Taylor step under a power law from a departure `deflection` m beyond the face, in the form that reaches furthest.
     pub fn under_power_law(
         flow: &LinearLaw,
         hertz: &PowerLaw,
@@ -111,8 +109,7 @@ impl TaylorStep {
         (segment.end > limits.slow_gain * usual).then_some(segment)
     }
 
-    /// The Taylor step in time from a deflection next to nothing, as long as the power law's part of the motion is
-    /// below rounding.
+    /// The Taylor step in time from hardly any deflection, as long as the power law's part of the motion is below rounding.
     fn step_without_power_law(
         flow: &LinearLaw,
         hertz: &PowerLaw,

@@ -85,8 +85,7 @@ fn binary_logarithm(coefficient: f64) -> f64 {
     (bits - ONE) as f64 * (1.0 / (1u64 << 52) as f64)
 }
 
-/// The argument up to which the first term left out of a series, `left_out` t^`order`, is below the rounding of one of
-/// its lower terms.
+/// The argument up to which the first term left out of a series, `left_out` t^`order`, is below the rounding of a lower one.
 pub(super) fn reach_below_rounding(series: &Series, left_out: f64, order: i32) -> f64 {
     if left_out == 0.0 || series == &ZERO {
         return f64::INFINITY;

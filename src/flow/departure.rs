@@ -12,7 +12,7 @@ pub struct Departure {
     pub position: f64,
     /// Velocity in m/s.
     pub velocity: f64,
-    /// Where the drive stands.
+    /// The drive angle.
     pub drive: DriveAngle,
     /// Force per mass in m/s^2, as it changes from the departure on: the external one and the law's own constant one.
     #[serde(rename = "push")]

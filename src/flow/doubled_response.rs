@@ -14,8 +14,7 @@ use super::parameter_response::{ParameterResponse, StateAndSupply};
 /// e^(i w t); below them the response to the force y.
 type DoubledResponse = SMatrix<f64, 8, 5>;
 
-/// Terms of the series before the first doubling, up to (fastest rate) x (time) = 1/8: (1/8)^n / n! falls below 1e-20
-/// at n = 12.
+/// Terms of the series before the first doubling, up to (fastest rate) x (time) = 1/8: the next would be (1/8)^12 / 12! < 4e-20.
 const TERMS: usize = 12;
 
 /// Coefficients of a response as a power series in units of the time.

@@ -18,8 +18,7 @@ pub(crate) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
     EIGHT_POINT_RULE.map(|(place, weight)| (0.5 * span * (1.0 + place), 0.5 * span * weight))
 }
 
-/// The integral of a function between two times by Gauss's rule, in panels short enough for oscillations no faster than
-/// `rate` in rad/s.
+/// The integral of a function between two times by Gauss's rule, in panels for oscillations no faster than `rate` in rad/s.
 pub(crate) fn integrate((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
     let panels = (rate * (to - from)).ceil().max(1.0);
     let width = (to - from) / panels;

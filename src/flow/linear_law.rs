@@ -18,7 +18,7 @@ pub struct LinearLaw {
     /// w in rad/s.
     pub frequency: f64,
     /// Steady state per drive, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
-    pub(super) steady: Option<(f64, f64)>,
+    pub steady: Option<(f64, f64)>,
     /// The steady state wherever it exists, and the time in s after which nothing else is left.
     pub(super) late: Option<((f64, f64), f64)>,
     /// Time in s that one scan step spans.
@@ -34,8 +34,7 @@ pub struct LinearLaw {
 }
 
 impl LinearLaw {
-    /// The law m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ..., all SI, with `mass` > 0, `damping` >=
-    /// 0, `frequency` > 0.
+    /// The law m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ...; `mass` > 0, `damping` >= 0, `frequency` > 0.
     pub fn new(mass: f64, damping: f64, stiffness: f64, amplitude: f64, frequency: f64) -> Self {
         let modes = Modes::new(0.5 * damping / mass, stiffness / mass);
         Self::of_modes(modes, amplitude / mass, frequency)
@@ -70,11 +69,6 @@ impl LinearLaw {
             window_modes: modes.transition(window),
             window_turn: DriveAngle::at(frequency * window),
         }
-    }
-
-    /// The steady state under the drive alone, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
-    pub fn steady_state(&self) -> Option<(f64, f64)> {
-        self.steady
     }
 
     /// The matrix d(x, v)(elapsed) / d(x, v)(0) of the free motion.

@@ -30,8 +30,7 @@ impl<const N: usize> Products<N> {
         first: [[f64x2::ZERO; N]; 2],
     };
 
-    /// The k-th coefficients of the paired products, by the k-th of their factors. It is to be called for k = 0, 1, ...
-    /// in order.
+    /// The k-th coefficients of the paired products, by the k-th of their factors. To be called for k = 0, 1, ... in order.
     #[inline(always)]
     pub fn next_terms(&mut self, k: usize, left: Pairs<N>, right: Pairs<N>) -> Pairs<N> {
         let (left, right) = (left.map(side_by_side), right.map(side_by_side));

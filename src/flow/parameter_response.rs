@@ -97,8 +97,7 @@ impl ArcSolution {
     }
 
     /// The parameter response along a Taylor step, up to sigma = `to`. With Y the transition from the start and J the
-    /// row of its work, d(end) = (Y, J) d(start) + the integral of (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0,
-    /// f(s))).
+    /// row of its work, d(end) = (Y, J) d(start) + the integral of (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0, f(s))).
     fn parameter_response_of_step(
         &self,
         step: &TaylorStep,

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Highest order of a derivative that a [`Polynomial`] has.
 pub const HIGHEST_ORDER: usize = 7;
 
-/// p(t) = sum of p_k t^k / k!, given by its derivatives p_k at t = 0, of order 0 (the value itself) to
-/// [`HIGHEST_ORDER`].
+/// p(t) = sum of p_k t^k / k!, given by its derivatives p_k at t = 0, of order 0 (the value itself) to [`HIGHEST_ORDER`].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Polynomial {
     derivatives: [f64; HIGHEST_ORDER + 1],

@@ -1,6 +1,6 @@
 //! The power law of contact, F = k d^n max(0, 1 + lambda v) (Hertz 1882; Hunt and Crossley 1975).
 
-/// Contact force k d^n max(0, 1 + lambda d') of a face, d its deflection.
+/// Contact force k d^n max(0, 1 + lambda d') from a face on, the position where contact begins; d is the deflection beyond it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
     /// Stiffness k in N/m^n.
@@ -9,7 +9,7 @@ pub struct PowerLaw {
     pub exponent: f64,
     /// Dissipation lambda in s/m.
     pub dissipation: f64,
-    /// Where the face stands, in m.
+    /// Position of the face in m.
     pub origin: f64,
     /// 1 if it presses downwards, as a stop above does, -1 if upwards.
     pub side: f64,

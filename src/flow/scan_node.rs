@@ -13,7 +13,7 @@ pub struct ScanNode {
     pub position: f64,
     /// Velocity in m/s.
     pub velocity: f64,
-    /// Where the drive stands.
+    /// The drive angle.
     pub drive: DriveAngle,
     pub(super) deviation: (f64, f64),
     /// Scan windows are counted from here, so that their times do not drift.

@@ -8,8 +8,7 @@ use super::scan_node::{ScanNode, ScanWindow};
 
 /// Most windows that are counted from one origin node of a scan; then the node reached becomes the origin.
 const MAX_COUNTED_WINDOWS: u32 = 1 << 31;
-/// Scan windows over which nodes are advanced by rotation before one is evaluated afresh, against the growth of
-/// rounding.
+/// Scan windows over which nodes are advanced by rotation before one is evaluated afresh, against the growth of rounding.
 const WINDOWS_PER_EXACT_NODE: u32 = 8;
 
 /// Ratio of the long scan window to the usual one from which it is worth asking whether it can be used.
@@ -165,8 +164,7 @@ impl ArcSolution {
         None
     }
 
-    /// True if at a scan node the free motion has decayed to 16 roundings of the whole motion, so that long windows
-    /// will do.
+    /// True if at a scan node the free motion has decayed to 16 roundings of the whole motion, so that long windows will do.
     fn is_settled(&self, node: &ScanNode) -> bool {
         match self.form {
             Form::Particular { particular, .. } => {

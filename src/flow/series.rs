@@ -95,8 +95,7 @@ pub(super) enum PowerRecurrence {
 }
 
 impl PowerRecurrence {
-    /// The recurrence of the power of a series that begins with `first` >= 0; up to an exponent of 12 a whole one is
-    /// built up by products.
+    /// The recurrence of the power of a series that begins with `first` >= 0; whole exponents up to 12 are by products.
     pub fn new(exponent: f64, first: f64) -> Self {
         let start = first.powf(exponent);
         if exponent == 0.0 {

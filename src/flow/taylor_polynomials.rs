@@ -11,7 +11,7 @@ pub(crate) const DEGREE: usize = 25;
 pub(crate) struct TaylorPolynomials {
     /// Position in m/s^n.
     pub position: [f64; DEGREE + 1],
-    /// Push p(t) + A cos(angle + w t) in m/s^2/s^n.
+    /// Forcing p(t) + A cos(angle + w t) in m/s^2/s^n.
     pub forcing: [f64; DEGREE + 1],
 }
 

@@ -157,8 +157,7 @@ impl TaylorStep {
         }
     }
 
-    /// The sigma that belongs to a time since departure: Newton's method on a function that grows, kept inside its
-    /// bracket.
+    /// The sigma that belongs to a time since departure: Newton's method on a function that grows, kept inside its bracket.
     pub fn sigma_after(&self, elapsed: f64) -> f64 {
         if elapsed >= self.end {
             return self.contact;

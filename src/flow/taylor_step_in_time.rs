@@ -189,8 +189,7 @@ impl TaylorStep {
     }
 }
 
-/// A bound on the first coefficient left out of the series in time of the position, as far as the curved part of the
-/// force brings it about.
+/// A bound on the first coefficient left out of the position's series in time, as far as it comes from the curved force.
 fn omitted_term_bound(flow: &LinearLaw, from: &Departure) -> f64 {
     let rate = flow.modes.fastest_rate();
     let answer = |k: usize| (DEGREE - k) as f64 * rate.powi((DEGREE - 1 - k) as i32);

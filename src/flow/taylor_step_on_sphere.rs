@@ -18,8 +18,7 @@ pub(super) fn is_sphere(hertz: &PowerLaw, from: &Departure) -> bool {
 }
 
 impl TaylorStep {
-    /// Computes all series of a step under the law of a sphere, in the regularised time sigma; `GRIPS` if the law
-    /// dissipates.
+    /// Computes all series of a step under the law of a sphere, in the regularised time sigma; `GRIPS` if the law dissipates.
     pub(super) fn expand_sphere<const GRIPS: bool>(
         &mut self,
         flow: &LinearLaw,

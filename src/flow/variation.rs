@@ -292,8 +292,7 @@ impl VariationalEquation {
         }
     }
 
-    /// The integral over time of damping over mass, linear and of the contact, up to `time`, where the step has this
-    /// `sigma`.
+    /// The integral over time of damping over mass, linear and of the contact, up to `time`, where the step has this `sigma`.
     pub fn damping_integral(&self, time: f64, sigma: f64) -> f64 {
         let grip = self.grip.as_ref().map_or(0.0, |grip| integral(grip, sigma));
         self.damping * time + grip

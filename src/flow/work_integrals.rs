@@ -158,8 +158,7 @@ impl ArcSolution {
 }
 
 impl TaylorStep {
-    /// Work per mass along this step up to `elapsed`; `law` is the part of the constant forcing that is the phase's own
-    /// force.
+    /// Work per mass along this step up to `elapsed`; `law` is the part of the constant forcing that is the phase's own force.
     pub fn work(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let law = self.side() * law;
         if self.regularized.is_none() && !self.is_pressed {
@@ -181,8 +180,7 @@ impl TaylorStep {
         done
     }
 
-    /// Work per mass of a linear law along a step in time: the integrals of the polynomials themselves, whatever their
-    /// degree.
+    /// Work per mass of a linear law along a step in time: the integrals of the polynomials themselves, whatever their degree.
     fn work_in_time(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let mut force = self.forcing;
         force[0] -= law;

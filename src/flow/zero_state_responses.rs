@@ -16,8 +16,7 @@ pub(super) struct ZeroStateResponses {
     pub sine: Vector2<f64>,
 }
 
-/// Terms of the Taylor series before the first doubling, up to (fastest rate) x (time) = 1/2: (1/2)^n / n! falls below
-/// 1e-20 at n = 15.
+/// Terms of the Taylor series before the first doubling, up to (fastest rate) x (time) = 1/2: the next would be (1/2)^16 / 16! < 1e-18.
 const TERMS: usize = 16;
 
 impl ZeroStateResponses {

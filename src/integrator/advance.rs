@@ -16,14 +16,13 @@ use crate::events::{FoundCrossing, Guard, NextEvent, first_crossing};
 use crate::flow::{DriveAngle, FinePosition};
 use crate::phases::{Mode, Phase};
 
-/// Most crossings at one and the same instant: more than any row of bounces that is shorter than the resolution of
-/// time.
-const MOST_AT_ONCE: u32 = 1_000_000;
-/// How many of them a Taylor step counts as, of which a contact takes some tens, or the end of a row of bounces.
-const STEP_AT_ONCE: u32 = 100;
+/// Most crossings at one and the same instant: more than any row of bounces within the resolution of time.
+const MAX_CROSSINGS_AT_ONCE: u32 = 1_000_000;
+/// Crossings at once as which a Taylor step counts, of which a contact takes some tens, or the end of a row of bounces.
+const CROSSINGS_PER_STEP: u32 = 100;
 /// Most windows of work in one drive period, which take some seconds: four times as many as scanning one takes at the
 /// fastest rate that a scene may have.
-const MOST_IN_A_PERIOD: u64 = 1 << 28;
+const MAX_PERIOD_WORK: u64 = 1 << 28;
 
 impl Motion {
     /// Advances to `until`, or to where `observer` stops it, telling it of every finished arc and every crossing.
@@ -41,8 +40,7 @@ impl Motion {
         self.watch(until, observer).map(drop)
     }
 
-    /// Advances, and says whether `observer` stopped it. The present time is then that of a crossing, or lies on a
-    /// long arc.
+    /// Advances, and says whether `observer` stopped it. The present time is then that of a crossing, or lies on a long arc.
     ///
     /// # Errors
     /// As [`Motion::advance`].
@@ -72,14 +70,14 @@ impl Motion {
         while !self.advance_if_clear(until)? {
             let (elapsed, counts) = match self.outlook {
                 NextEvent::Crossing(FoundCrossing { elapsed, .. }) => (elapsed, 1),
-                NextEvent::Ends(elapsed) => (elapsed, STEP_AT_ONCE),
+                NextEvent::Ends(elapsed) => (elapsed, CROSSINGS_PER_STEP),
                 _ => (0.0, 0),
             };
             at_once = match self.is_instant(elapsed) {
                 true => at_once + counts,
                 false => 0,
             };
-            if at_once > MOST_AT_ONCE {
+            if at_once > MAX_CROSSINGS_AT_ONCE {
                 return Err(self.stalled());
             }
             if let Some(at) = self.next_crossing()
@@ -100,7 +98,7 @@ impl Motion {
                 }
                 NextEvent::ClearUntil(node) => {
                     self.now = self.clock.after(self.start, node.elapsed);
-                    effort::CHUNK.into()
+                    effort::WINDOWS_PER_QUESTION.into()
                 }
                 NextEvent::Never | NextEvent::Unbounded(_) => 0,
             };
@@ -111,7 +109,7 @@ impl Motion {
                 (cycle, work) = (self.now.cycles, 0);
             }
             work += windows;
-            if work > MOST_IN_A_PERIOD {
+            if work > MAX_PERIOD_WORK {
                 return Err(self.endless());
             }
         }
@@ -182,7 +180,8 @@ impl Motion {
         if let NextEvent::ClearUntil(node) = self.outlook
             && node.elapsed < horizon
         {
-            let sight = node.elapsed + f64::from(effort::CHUNK) * self.course.flow.window;
+            let sight =
+                node.elapsed + f64::from(effort::WINDOWS_PER_QUESTION) * self.course.flow.window;
             let resolved = sight > node.elapsed;
             let until = if resolved {
                 horizon.min(sight)

@@ -4,8 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::phases::{RestThreshold, SurfaceId};
 
-/// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast as one
-/// before it.
+/// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast as one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BounceTrain {
     surface: SurfaceId,
@@ -29,7 +28,7 @@ impl Default for BounceTrain {
 /// Crossings in a row after which faint bounces are no longer followed. At a preloaded stop that is
 /// pressed with less than its preload, bounces shrink only by viscous damping: their number grows
 /// beyond all bounds as their height goes to zero.
-const PATIENCE: u32 = 10_000;
+const MAX_FOLLOWED_BOUNCES: u32 = 10_000;
 
 impl BounceTrain {
     /// Counts a crossing of a surface.
@@ -48,10 +47,10 @@ impl BounceTrain {
 
     /// The bounces that count as rest after this row.
     pub fn rest_threshold(&self) -> RestThreshold {
-        if self.crossings < PATIENCE {
+        if self.crossings < MAX_FOLLOWED_BOUNCES {
             return RestThreshold::ROUNDING;
         }
-        let length = f64::from(self.crossings) / f64::from(PATIENCE);
+        let length = f64::from(self.crossings) / f64::from(MAX_FOLLOWED_BOUNCES);
         // Heights shrink with the square of the length: so the train ends after some millions of crossings at the latest.
         let faint = 1e-11 * length * length;
         RestThreshold {

@@ -1,4 +1,4 @@
-//! The mark of a running machine: where its last advance began, how to go back there, and that advance gone through again.
+//! The checkpoint of a running machine: where its last advance began, how to go back there, and that advance gone through again.
 
 use super::clock::{Clock, Instant};
 use super::motion::Motion;
@@ -11,8 +11,7 @@ use crate::flow::{Polynomial, integrate};
 use crate::phases::PhaseKind;
 
 impl Simulation {
-    /// The machine as it was before the last advance, if that met a crossing or stopped on its way and
-    /// nothing was set since.
+    /// The machine as it was before the last advance, if that met a crossing or stopped on its way and nothing was set since.
     pub fn before_advance(&self) -> Option<Self> {
         let Checkpoint::Before(origin) = &self.checkpoint else {
             return None;
@@ -24,18 +23,18 @@ impl Simulation {
         Some(machine)
     }
 
-    /// Sets the mark: lets the stretch of [`Simulation::sensitivity`] begin at the present time.
+    /// Sets the checkpoint: lets the stretch of [`Simulation::sensitivity`] begin at the present time.
     pub fn set_checkpoint(&mut self) {
         self.checkpoint = Checkpoint::OnArc(self.motion.now());
     }
 
-    /// True if the mark is the start: the stretch of [`Simulation::sensitivity`] reaches back to it.
+    /// True if the checkpoint is the start: the stretch of [`Simulation::sensitivity`] reaches back to it.
     pub fn is_checkpoint_at_start(&self) -> bool {
         let (_, at) = self.motion_through_checkpoint();
         at == self.motion.clock().instant(self.begin - self.epoch)
     }
 
-    /// The motion as it was at the mark, on an arc of its own from there on.
+    /// The motion as it was at the checkpoint, on an arc of its own from there on.
     pub(crate) fn motion_at_checkpoint(&self) -> Motion {
         let (motion, at) = self.motion_through_checkpoint();
         motion.restarted_at(at)
@@ -66,7 +65,7 @@ impl Simulation {
         machine
     }
 
-    /// A motion that passes the mark, and when.
+    /// A motion that passes the checkpoint, and when.
     pub(super) fn motion_through_checkpoint(&self) -> (&Motion, Instant) {
         match &self.checkpoint {
             Checkpoint::OnArc(instant) => (&self.motion, *instant),
@@ -90,7 +89,7 @@ impl Simulation {
         Ok(watch.work)
     }
 
-    /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
+    /// Tells of all arcs and crossings since the checkpoint; the first arc may have begun before it.
     pub(super) fn replay(&self, observer: &mut dyn Observer) -> Result<(), MotionError> {
         let mut motion = self.motion_through_checkpoint().0.clone();
         motion.advance_like(&self.motion, observer)?;
@@ -104,7 +103,7 @@ impl Simulation {
     }
 }
 
-/// Adds up the work of a force from an instant on.
+/// An observer that adds up the work of a force from an instant on.
 struct WorkRecorder<'a> {
     clock: Clock,
     from: Instant,

@@ -120,7 +120,7 @@ impl Clock {
         }
     }
 
-    /// Where the drive stands.
+    /// The drive angle at an instant.
     #[inline]
     pub fn drive(&self, at: Instant) -> DriveAngle {
         DriveAngle::at(self.frequency * at.offset + self.phase)

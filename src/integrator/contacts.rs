@@ -69,7 +69,7 @@ impl Simulation {
     }
 }
 
-/// Gathers contacts from an instant on.
+/// An observer that gathers impacts and the contact force from an instant on.
 struct ContactRecorder<'a> {
     scene: &'a Scene,
     clock: Clock,

@@ -10,7 +10,7 @@ use crate::flow::DEGREE;
 pub struct Effort(u64);
 
 /// Windows of an arc that are scanned before the observer is asked whether to go on.
-pub(super) const CHUNK: u32 = 1 << 20;
+pub(super) const WINDOWS_PER_QUESTION: u32 = 1 << 20;
 
 impl Effort {
     /// About as much as scanning this many windows of time costs. A window is the reciprocal of the fastest of drive

@@ -323,7 +323,7 @@ impl Motion {
         }
     }
 
-    /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
+    /// Forcing of drive and external force per mass, in m/s^2, at the start of the present arc.
     pub(super) fn forcing_per_mass(&self, drive: DriveAngle) -> f64 {
         self.phases.forcing_per_mass(drive, self.force.on_arc())
     }

@@ -47,7 +47,7 @@ impl Arc<'_> {
         self.clock.time(self.start)
     }
 
-    /// Where the drive stands `elapsed` seconds after the start.
+    /// The drive angle `elapsed` seconds after the start.
     pub fn drive(&self, elapsed: f64) -> DriveAngle {
         self.clock.drive(self.clock.after(self.start, elapsed))
     }

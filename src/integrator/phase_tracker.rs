@@ -9,8 +9,8 @@ use crate::events::{FoundCrossing, Guard};
 use crate::flow::Polynomial;
 use crate::phases::{Mode, Phase, PhaseId};
 
-/// Crossings within one instant after which a method does not get on.
-const MOST_AT_ONCE: u32 = 1000;
+/// Most crossings within one instant: a method that makes more does not get on.
+const MAX_CROSSINGS_AT_ONCE: u32 = 1000;
 
 /// Where a motion is between its phases: which law holds, which guards end it, and what a crossing of one
 /// leads to, by the same rules as those of the exact method.
@@ -155,7 +155,7 @@ impl PhaseTracker {
         self.mode = mode;
     }
 
-    /// Push of the drive per mass in m/s^2 at the last crossing.
+    /// Forcing of the drive per mass in m/s^2 at the last crossing.
     fn forcing_per_mass(&self) -> f64 {
         let drive = self.scene.excitation;
         let angle = drive.frequency * self.time + drive.reduced_phase();
@@ -166,7 +166,7 @@ impl PhaseTracker {
     fn check_progress(&mut self, elapsed: f64) -> Result<(), MotionError> {
         let instant = elapsed <= 4.0 * f64::EPSILON * self.time.max(self.scene.period());
         self.at_once = if instant { self.at_once + 1 } else { 0 };
-        if self.at_once <= MOST_AT_ONCE {
+        if self.at_once <= MAX_CROSSINGS_AT_ONCE {
             return Ok(());
         }
         Err(MotionError::Stalled {

@@ -10,7 +10,7 @@ use crate::phases::{
 };
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
-/// to no end in finite time, as those on a preloaded face, and in too many impacts for lanes.
+/// to no end in finite time, as those on a preloaded stop, and in too many impacts for lanes.
 pub const MAX_RESTITUTION: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
 /// State, mode and kind right after a crossing.
@@ -117,8 +117,7 @@ pub(crate) struct ResetContext<'a> {
 }
 
 impl ResetContext<'_> {
-    /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at once where it
-    /// left rest.
+    /// State and mode right after a crossing out of a phase; `moved`: it is not back at once where it left rest.
     pub(crate) fn reset(
         &self,
         phase: PhaseId,

@@ -36,8 +36,7 @@ impl Motion {
         self.restart_under(force, self.state())
     }
 
-    /// Goes on under another drive as well, by the same laws under that drive and its clock, which says that it is now
-    /// `at`.
+    /// Goes on under another drive as well, by the same laws under that drive and its clock, which says that it is now `at`.
     pub(super) fn set_drive(
         &mut self,
         (phases, clock): (Shared<Phases>, Clock),
@@ -69,7 +68,7 @@ impl Motion {
                 let phase = self.phases.at_velocity(hold.outer_phase(), state.velocity);
                 self.mode = Mode::Moving(phase);
             }
-            // At rest on a face the force decides which way it goes, if any.
+            // At rest on a surface the force decides which way it goes, if any.
             Mode::Moving(_) if state.velocity == 0.0 => {
                 let forcing = self.forcing_per_mass(drive);
                 let latched = self.is_latched();
@@ -167,7 +166,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Lets the time of another clock begin now.
+    /// Begins to count the time of a new clock at the present time.
     pub(super) fn restart_clock(&mut self) {
         self.earlier = self.last_impact();
         self.tallies.counts.last_impact = None;

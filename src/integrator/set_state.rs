@@ -41,7 +41,7 @@ impl Motion {
     }
 
     /// Stands before the crossing of a guard that the state has passed already.
-    fn face_passed_guard(&mut self) {
+    fn stand_before_passed_guard(&mut self) {
         let Start { position, velocity } = self.state();
         let is_passed = |&(_, (guard, value)): &(usize, (Guard, f64))| {
             let leaves = guard.velocity != 0.0 || guard.position * velocity >= 0.0;
@@ -78,11 +78,10 @@ impl Simulation {
     pub fn continue_law_of(&mut self, of: &Self) {
         self.motion.mode = of.motion.mode;
         self.motion.begin_in_state(self.motion.state());
-        self.motion.face_passed_guard();
+        self.motion.stand_before_passed_guard();
     }
 
-    /// How far the state is from the ends of the present law, each in parts of what a `length` in m amounts to: below zero
-    /// beyond one.
+    /// How far the state is from the ends of the present law, as shares of what a `length` in m amounts to; < 0 beyond one.
     pub fn guard_margins(&self, length: f64) -> impl Iterator<Item = f64> {
         let rate = self.scene.excitation.frequency;
         self.motion.guard_values().map(move |(guard, value)| {

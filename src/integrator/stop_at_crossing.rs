@@ -10,8 +10,8 @@ use crate::error::MotionError;
 use crate::events::NextEvent;
 use crate::phases::Mode;
 
-/// Crossings at one instant that happen together; those of a longer row follow when they are told to.
-const MOST_TOGETHER: u32 = 1000;
+/// Most crossings at one instant that happen together; those of a longer row follow when they are told to.
+const MAX_CROSSINGS_TOGETHER: u32 = 1000;
 
 impl Motion {
     /// When the crossing happens that ends the present arc, as far as it is known.
@@ -99,7 +99,7 @@ impl Simulation {
         let mut observers = (&mut self.tallies, observer);
         let now = self.motion.now;
         let near = self.motion.clock.after(now, self.motion.resolution());
-        for _ in 0..MOST_TOGETHER {
+        for _ in 0..MAX_CROSSINGS_TOGETHER {
             self.motion.pass_pending_crossing(&mut observers);
             let next = self.motion.watch_before(near, Some(now), &mut observers);
             if !matches!(next, Ok(ControlFlow::Break(()))) {

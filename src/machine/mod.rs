@@ -28,7 +28,7 @@ pub enum UnitSystem {
 }
 
 impl UnitSystem {
-    /// The sign of its unit; empty for bare numbers.
+    /// The sign of the unit of a dimension in this system; empty for bare numbers.
     pub const fn unit(self, dimension: Dimension) -> &'static str {
         match (self, dimension) {
             (Self::Ratios, _) => "",
@@ -125,8 +125,7 @@ impl Machine {
         })
     }
 
-    /// The parameters that this machine has. One that is stated in ratios has no mass, suspension and drive amplitude
-    /// of its own.
+    /// The parameters that this machine has. A machine in ratios has no mass, suspension and drive amplitude.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
         let mut all = Parameter::ALL.into_iter();
         std::iter::from_fn(move || all.find(|parameter| self.value(*parameter).is_some()))
@@ -159,8 +158,7 @@ impl Machine {
         self.update_followers();
     }
 
-    /// The machine at another frequency of its drive, in rad/s, with what follows it; nothing happens if that follows
-    /// others itself.
+    /// The machine at another frequency of its drive, in rad/s, with what follows it; unchanged if it follows others itself.
     pub fn set_frequency(&mut self, frequency: f64) {
         let dimension = Parameter::Frequency.about().dimension;
         self.set(Parameter::Frequency, self.to_own(dimension, frequency));

@@ -4,17 +4,17 @@ use super::{Machine, UnitSystem};
 use crate::scene::{Dimension, Parameter};
 
 impl Machine {
-    /// A quantity in SI units in its own ones.
+    /// The value in the machine's own unit of a quantity in SI units.
     pub fn to_own(&self, dimension: Dimension, value: f64) -> f64 {
         value / self.own_unit_in_si(dimension)
     }
 
-    /// A quantity in its own units in SI ones.
+    /// The value in SI units of a quantity in the machine's own unit.
     pub fn to_si(&self, dimension: Dimension, value: f64) -> f64 {
         value * self.own_unit_in_si(dimension)
     }
 
-    /// The unit of the machine for a quantity, in SI units.
+    /// The machine's own unit of a dimension, in SI units.
     const fn own_unit_in_si(&self, dimension: Dimension) -> f64 {
         match (self.unit_system, dimension) {
             (UnitSystem::Ratios, Dimension::Damping) => 2.0,
@@ -23,7 +23,7 @@ impl Machine {
         }
     }
 
-    /// The sign of its own unit; empty for bare numbers.
+    /// The sign of the machine's own unit of a dimension; empty for bare numbers.
     pub const fn unit(&self, dimension: Dimension) -> &'static str {
         self.unit_system.unit(dimension)
     }
@@ -38,7 +38,7 @@ impl Machine {
         exponent.get(&self.scene).is_some()
     }
 
-    /// The sign of the unit in which it states a parameter; empty for bare numbers.
+    /// The sign of the unit in which the machine states a parameter; empty for bare numbers.
     pub fn unit_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Preload if self.preload_deflection.is_some() => self.unit(Dimension::Length),

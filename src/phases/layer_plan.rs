@@ -118,8 +118,7 @@ fn stop_layers(
         Stop::None if (fed && scene.piercing.is_some()) || bare_wall => {
             vec![LayerPlan::new(PhaseKind::Gap, from, touching)]
         }
-        // A rigid stop is the wall that ends the stack. Before it stands nothing but the far side
-        // of the strip.
+        // A rigid stop is the wall that ends the stack. Before it stands nothing but the far side of the strip.
         Stop::Rigid { .. } => vec![LayerPlan::new(PhaseKind::Gap, from, touching)],
         Stop::None => Vec::new(),
         Stop::Preloaded { stiffness, preload } => vec![spring(*stiffness, *preload)],

@@ -39,13 +39,13 @@ pub enum PhaseKind {
     Gap,
     /// Phase III: the stop is pressed.
     Stop,
-    /// Beyond the stop's face, where the stop would have to pull.
+    /// Beyond where the stop begins, where it would have to pull.
     Released,
     /// Ever faster bounces on a rigid stop that end in rest after a finite time.
     Chatter,
     /// Held by dry friction.
     Stuck,
-    /// Held at the face of a stop: of a preloaded one by a force below its preload, of a rigid one by any force.
+    /// Held where a stop begins: at a preloaded one by a force below its preload, at a rigid one by any force.
     Resting,
 }
 
@@ -225,13 +225,13 @@ impl Phases {
         sides.fold(on_wall, f64::min)
     }
 
-    /// The surfaces at which the mass can go no further.
+    /// The surfaces of rigid stops, at which the mass can go no further.
     pub(crate) fn walls(&self) -> impl Iterator<Item = &Surface> {
         let walls = [self.fed.wall, self.below.wall].into_iter().flatten();
         walls.map(|wall| &self[wall])
     }
 
-    /// Push of drive and external force per mass, in m/s^2.
+    /// Forcing of drive and external force per mass, in m/s^2.
     pub(crate) fn forcing_per_mass(&self, drive: DriveAngle, force: &Polynomial) -> f64 {
         self.amplitude * drive.cos + force.value() / self.mass
     }

@@ -1,5 +1,4 @@
-//! Which mode holds at a given state, the mass moving in a phase or held: by position, then by velocity, then by
-//! acceleration.
+//! Which mode holds at a given state, the mass moving in a phase or held: by position, then by velocity, then by acceleration.
 //!
 //! At rest on a surface or under dry friction the force is set-valued (Filippov 1988). The mass
 //! leaves forward if the law ahead accelerates it forward, back if the law behind accelerates it

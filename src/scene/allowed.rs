@@ -24,7 +24,7 @@ impl Allowed {
     /// The exponent up to which Taylor steps keep all digits; beyond 30 a power law is a wall to them.
     pub const HIGHEST_POWER: f64 = 20.0;
 
-    /// True if the value lies there.
+    /// True if a value lies in this range.
     pub fn holds(self, value: f64) -> bool {
         value.abs() <= Self::LARGEST
             && match self {
@@ -36,7 +36,7 @@ impl Allowed {
             }
     }
 
-    /// In words, as after "must be".
+    /// This range in words, as after "must be".
     pub const fn words(self) -> &'static str {
         match self {
             Self::Positive => "finite and > 0, at most 1e24",
@@ -47,7 +47,7 @@ impl Allowed {
         }
     }
 
-    /// Refuses a value that lies elsewhere.
+    /// Refuses a value outside this range.
     ///
     /// # Errors
     /// [`SceneError::OutOfRange`].

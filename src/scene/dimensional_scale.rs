@@ -54,8 +54,7 @@ impl Units {
 }
 
 impl Scene {
-    /// The scene with every quantity multiplied by its unit. No parameter follows the frequency any more: expressions are in
-    /// the units before.
+    /// The scene with every quantity multiplied by its unit. No parameter follows the frequency any more.
     ///
     /// # Errors
     /// [`SceneError`] if a unit is not positive or a product leaves its range.

@@ -103,10 +103,10 @@ macro_rules! table {
         }),*];
 
         impl Parameter {
-            /// All, in the order of the table.
+            /// All parameters, in the order of the table.
             pub const ALL: [Self; TABLE.len()] = [$(Self::$parameter),*];
 
-            /// Those of the drive alone.
+            /// The parameters of the drive alone.
             pub(crate) const OF_DRIVE: [Self; 3] = [Self::Amplitude, Self::Frequency, Self::Phase];
         }
     };
@@ -208,13 +208,13 @@ impl Parameter {
         self.about().name
     }
 
-    /// The one of this name.
+    /// The parameter of this name.
     pub fn named(name: &str) -> Option<Self> {
         let about = TABLE.iter().find(|about| about.name == name)?;
         Some(about.parameter)
     }
 
-    /// True if it is called so: by its name, letter or an older name.
+    /// True if a text is the name of the parameter, its letter or an older name.
     pub fn is_called(self, name: &str) -> bool {
         let about = self.about();
         name == about.name || name == about.letter || about.aliases.contains(&name)
@@ -243,7 +243,7 @@ impl Parameter {
         place!(self, scene).copied()
     }
 
-    /// Sets it, in SI units; nothing happens if the machine does not have it. The value is not checked:
+    /// Sets the parameter in a scene, in SI units; nothing happens if the machine does not have it. The value is not checked:
     /// [`Scene::validate`] does that.
     pub fn set(self, scene: &mut Scene, value: f64) {
         if let Some(place) = place!(self, scene, mut) {
@@ -251,7 +251,7 @@ impl Parameter {
         }
     }
 
-    /// Refuses a value that it cannot have.
+    /// Refuses a value that the parameter cannot have.
     ///
     /// # Errors
     /// [`SceneError::OutOfRange`].

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The strip in front of the stop, which is pierced from the clearance on (Peterka 2003, eqs. 1-4): phase I forming, phase II
-/// cutting.
+/// The strip in front of the stop, which is pierced from the clearance on (Peterka 2003, eqs. 1-4): phase I forming, II cutting.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Strip {

@@ -129,7 +129,7 @@ fn energy_change(scene: &Scene, motion: &Motion, position: f64, velocity: f64) -
     scene.mass * v * velocity + elastic * position
 }
 
-/// Carries a change along a motion.
+/// An observer that carries a small change of state and force along a motion.
 struct SensitivityRecorder<'a> {
     scene: &'a Scene,
     from: Instant,

@@ -1,5 +1,4 @@
-//! How a motion changes with its start and with any parameters of its machine: exact, across crossings whose surfaces and
-//! resets change, too.
+//! How a motion changes with its start and with any parameters of its machine: exact, also where surfaces and resets change.
 
 use super::phase_derivatives::PhaseDerivatives;
 use crate::flow::{ArcSolution, ForceBasis, StateAndSupply};
@@ -88,8 +87,7 @@ impl<'a> ParameterSensitivity<'a> {
         Some((columns.collect(), self.drive * answers.travel.0))
     }
 
-    /// How much later a crossing of a surface, or a turn under dry friction, happens, in s by each column, before it is
-    /// told.
+    /// How much later a crossing of a surface, or a turn under dry friction, happens, in s by each column, before it is told.
     pub fn crossing_delays(&self, crossing: &Crossing) -> Vec<f64> {
         let (v, a) = (crossing.velocity, crossing.acceleration_before);
         let places = self.surface_derivatives(crossing);

@@ -7,7 +7,7 @@ use crate::phases::{Beyond, LawCoefficients, Phase, PhaseId, PhaseKind, Phases};
 use crate::scene::{Dimension, Parameter, Scene};
 
 /// Relative step of a parameter between the two scenes whose phases are compared.
-const STEP: f64 = 1.0 / 128.0;
+const RELATIVE_STEP: f64 = 1.0 / 128.0;
 
 /// Derivatives of all that a scene is lowered to, by one parameter. The drive angle is held while its frequency changes:
 /// in the time w t, mass and dampers are w^2 and w times as large, and velocities are per radian.
@@ -41,7 +41,7 @@ impl PhaseDerivatives {
         let name = parameter.name();
         let value = parameter.get(scene).ok_or(SceneError::Lacks(name))?;
         let mut moved = Scene::clone(scene);
-        let step = STEP * value.abs().max(typical_size(parameter, scene));
+        let step = RELATIVE_STEP * value.abs().max(typical_size(parameter, scene));
         parameter.set(&mut moved, value + step);
         let step = (value + step) - value;
         // Its phases alone are asked for, and a step beyond the range of the parameter changes no kind of law.

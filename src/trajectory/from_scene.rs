@@ -34,8 +34,7 @@ impl Scene {
         self.trajectory_with_forces(start, end, &[], &mut ())
     }
 
-    /// The exact motion from `start` at time 0 under external forces, in order of time, to any later instant, or until
-    /// the observer stops it.
+    /// The exact motion from `start` at time 0 under forces in order of time, to an instant or until the observer stops it.
     ///
     /// # Errors
     /// As [`Scene::trajectory`]; [`MotionError::TimeBackwards`] if a force begins before the one ahead of it, and those of

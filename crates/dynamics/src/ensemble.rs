@@ -65,8 +65,7 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Advances the open members by some drive periods, on all threads, and records their states after each of the last
-    /// `recorded` ones.
+    /// Advances the open members by some drive periods, on all threads, and records their states after the last `recorded` ones.
     pub(crate) fn advance<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -103,8 +102,7 @@ impl<'a> Ensemble<'a> {
         self.count_work(recorded * self.advance_batch::<false, true, _>(members, recorded)?)
     }
 
-    /// Advances the open members by some drive periods, on this thread, and records states and impacts of the last `recorded`
-    /// ones.
+    /// Advances the open members by some drive periods, on this thread, and records states and impacts of the `recorded` last.
     pub(crate) fn record_run<M: HasMember>(
         &self,
         members: &mut [&mut M],

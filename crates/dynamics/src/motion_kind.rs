@@ -42,8 +42,7 @@ impl MotionKind {
         Self::from_regime(orbit.regime(), orbit.pattern())
     }
 
-    /// The kind of a motion that repeats, by its regime (of chatter: of the impacts before summed ones) and impacts in each drive
-    /// period.
+    /// The kind of a motion that repeats, by its regime (of chatter: of impacts before summed ones) and impacts in each period.
     pub fn from_regime(regime: Regime, order: ImpactPattern) -> Self {
         let periods = regime.periods;
         match order.counts_per_period().contains(&ImpactCount::Infinite) {

@@ -39,7 +39,8 @@ impl ArcBounds {
         rest: &LinearError,
     ) -> Vector2<f64> {
         let rest = at.transition.abs() * (rest.state + self.curve) + at.response.abs() * rest.delay;
-        row_norms(&(at.tangent * ball)) + rest + self.curve
+        let tangent = at.tangent * ball;
+        Vector2::new(tangent.row(0).norm(), tangent.row(1).norm()) + rest + self.curve
     }
 }
 
@@ -142,9 +143,4 @@ impl CycleArc {
         let jerk = self.damping * acceleration + self.stiffness * velocity + force_rate;
         [position, velocity, acceleration, jerk].into()
     }
-}
-
-/// Euclidean norm of each row of a matrix, the largest values of the two components that it makes of unit vectors.
-fn row_norms(matrix: &Matrix2<f64>) -> Vector2<f64> {
-    Vector2::new(matrix.row(0).norm(), matrix.row(1).norm())
 }

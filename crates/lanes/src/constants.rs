@@ -185,11 +185,10 @@ impl PhaseConstants {
         }
     }
 
-    /// Sets the constants of a linear phase's equation of motion; none if it is too stiff for windows, or too soft for a static
-    /// deflection.
+    /// Sets the constants of a linear phase's equation of motion; none if too stiff for windows or without static deflection.
     fn set_linear_law(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         let flow = &phase.flow;
-        let (cosine, sine) = flow.steady_state()?;
+        let (cosine, sine) = flow.steady?;
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
         let window = WINDOW_ANGLE / fastest;
@@ -265,8 +264,7 @@ impl PhaseConstants {
     }
 
     /// Sets the distance from a guard, and the velocity there, below which rounding may decide, so that the lane is handed to the
-    /// safe engine. That tells rest from a faint bounce by the velocity after the impact before, so velocities after an impact
-    /// count, too.
+    /// safe engine. That tells rest from a faint bounce by the velocity after the impact before, so such velocities count, too.
     fn set_ambiguity(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let size = finite(self.low)

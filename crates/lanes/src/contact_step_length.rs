@@ -15,8 +15,7 @@ const MIN_RATIO_TO_LAST_TERM: f64 = 1.0 / (1u64 << 24) as f64;
 const MAX_GUESSES: usize = 64;
 
 impl<S: Simd, const N: usize> ContactSeries<S, N> {
-    /// Length, in sigma, of the step over which the series hold to rounding in the lanes `of`, from a `guess` on; and where it
-    /// was found.
+    /// Length in sigma, from a `guess` on, over which the series hold to rounding in the lanes `of`; and where one is found.
     #[inline(always)]
     pub fn step_length(&self, guess: Lanes<S, N>, of: Mask<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let mut reach = guess;

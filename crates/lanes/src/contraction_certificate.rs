@@ -5,8 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::contraction_norm::ContractionNorm;
 use super::cycle::Cycle;
 
-/// Largest error of the limit point, as a length in the plane of return points (velocity over the first velocity, drive angle in
-/// rad).
+/// Largest error of the limit point, as a length in the plane of return points (velocity over the first one, drive angle in rad).
 const MAX_LIMIT_ERROR: f64 = 4e-12;
 /// Most balls about the limit that are tried for the proof.
 const MAX_BALLS: usize = 8;

@@ -194,8 +194,7 @@ impl CycleArc {
         }
     }
 
-    /// Adds the windows of the arc, halved where the cycle is not proven clear of other guards; none if they get too short or too
-    /// many.
+    /// Adds the windows of the arc, halved where the cycle is not proven clear of other guards; none if too short or too many.
     fn divide_arc(
         &self,
         law: &PhaseConstants,

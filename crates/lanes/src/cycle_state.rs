@@ -42,8 +42,7 @@ pub(super) struct CycleState {
 }
 
 /// Derivatives of the state of a trial cycle at one instant: by the state at the start of its arc (`transition`), by the delay of
-/// the crossing that began the arc (`response`), and by velocity and drive angle of the impact that the cycle begins with
-/// (`tangent`).
+/// the crossing that began the arc (`response`), and by velocity and drive angle of the first impact (`tangent`).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Derivatives {
     pub transition: Matrix2<f64>,

@@ -11,8 +11,7 @@ pub(super) const RETURNS_PER_GUESS: usize = 4;
 pub(super) const MIN_DECAY: f64 = 1e-3;
 
 /// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial extrapolation
-/// (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d. None if they do not converge
-/// fast enough.
+/// (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d. None if they converge slowly.
 pub(super) fn extrapolate_limit(
     points: &[Vector2<f64>; RETURNS_PER_GUESS],
 ) -> Option<(Vector2<f64>, f64)> {

@@ -122,7 +122,8 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
         loop {
             // Or the compiler would fetch the whole law before the loop, that seldom goes round twice, and spill it.
             let law = std::hint::black_box(law);
-            let parts = ahead.motion_at(law, goal.at);
+            let (here, next) = (&ahead.here, &ahead.next);
+            let parts = here.within_window(law, ahead.frequency, next, goal.at);
             let derivatives = local_taylor::motion_derivatives(law, ahead.frequency, &parts);
             let weights = (self.position, self.velocity, self.level);
             let local = local_taylor::guard_taylor::<S, N, HAS_OTHER_ENDS>(&derivatives, weights);

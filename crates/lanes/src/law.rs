@@ -85,8 +85,7 @@ law! {
     fourth_v,
     fifth_x,
     fifth_v,
-    /// The free motion is never larger than |y| + longest |y'| in the free phase and in one that one position ends, the steady
-    /// one than swing.
+    /// The free motion is at most |y| + longest |y'| in the free phase and in one that one position ends, the steady one swing.
     longest,
     swing,
     /// Parts of the bound on |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
@@ -114,8 +113,7 @@ law! {
     /// 1 where passing high, or low, is an impact.
     impact,
     impact_low,
-    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how velocity and count of impacts
-    /// change there.
+    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how velocity and impacts change.
     end,
     beyond_end,
     end_bounce,

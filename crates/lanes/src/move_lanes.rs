@@ -57,8 +57,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Ends the drive period (or the job, if periods are not observed) of lanes that have `arrived` there; returns those whose
-    /// job is complete.
+    /// Ends the drive period (the job, if periods are not observed) of lanes that `arrived`; returns those with complete jobs.
     #[inline(always)]
     pub fn end_periods(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
         if !arrived.any() {

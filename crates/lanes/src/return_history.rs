@@ -261,8 +261,7 @@ impl ReturnHistory {
         ReturnDecision::wait(record_again_at)
     }
 
-    /// A return as whole drive periods since the first one and a point of the return map (velocity over the first one's, drive
-    /// angle).
+    /// A return as whole drive periods since the first one and a point (velocity over the first one's, drive angle) of the map.
     fn return_point(&self, it: &PostImpactState) -> (f64, Vector2<f64>) {
         let periods = (self.left - it.left) + it.offset * self.per_period;
         let number = ((periods - self.moment) / self.every + 0.5) as i64;
@@ -275,8 +274,7 @@ impl ReturnHistory {
         std::array::from_fn(|index| self.return_point(&self.own[index]).1)
     }
 
-    /// The state after an impact at a point (velocity, drive angle) of the return map, `times` returns after the motion's last
-    /// one.
+    /// The state after an impact at a point (velocity, drive angle) of the return map, `times` returns after the motion's last.
     fn return_at(&self, point: Vector2<f64>, times: f64) -> PostImpactState {
         let after = &self.own[RETURNS_PER_GUESS - 1];
         let (number, _) = self.return_point(after);

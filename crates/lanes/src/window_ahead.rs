@@ -22,13 +22,6 @@ pub(super) struct WindowAhead<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> WindowAhead<S, N> {
-    /// Free and steady part of the motion a time after the beginning of the window.
-    #[inline(always)]
-    pub fn motion_at(&self, law: &Laws<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
-        self.here
-            .within_window(law, self.frequency, &self.next, time)
-    }
-
     /// Position from the guard's edge, velocity and acceleration of a motion given by its parts.
     #[inline(always)]
     pub fn state_from_edge(&self, law: &Laws<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {

@@ -118,8 +118,7 @@ impl AttractorCatalogue {
         })
     }
 
-    /// Enters a stable orbit in the catalogue, unless it is known, and returns its index; `returned`: distance by which the
-    /// motion missed itself.
+    /// Enters a stable orbit in the catalogue, unless it is known, and returns its index; `returned`: how near it came back.
     fn enter_orbit(&mut self, orbit: Orbit, returned: f64) -> Result<usize, OrbitError> {
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
         if let Some(index) = self.find_known(&orbit, &states) {

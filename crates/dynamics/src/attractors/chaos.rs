@@ -8,7 +8,7 @@ use crate::orbit::{LyapunovExponents, OrbitError, StroboscopicMap};
 use softstop::internals::narrow_root;
 use softstop::{CheckedScene, Crossing, Observer, Start};
 
-/// LyapunovExponents, impacts and lifetime of a chaotic motion: one that never repeats as far as it was watched.
+/// Exponents, impacts and lifetime of a chaotic motion: one that never repeats as far as it was watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Chaos {
@@ -43,8 +43,7 @@ impl Observer for ImpactVelocities {
 const MAX_COUNTED_PERIODS: u64 = 4096;
 
 impl Chaos {
-    /// Measures the impacts of a chaotic motion from the state `begin` on; `state`: where it is after its `exponents` were
-    /// measured.
+    /// Measures the impacts of a chaotic motion from the state `begin` on; `state`: that after measuring its `exponents`.
     pub(super) fn of_motion(
         scene: &CheckedScene,
         ensemble: &Ensemble<'_>,

@@ -107,8 +107,7 @@ fn have_common_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
     common.count() as f64 >= MIXED_SHARE * a.len().max(b.len()) as f64
 }
 
-/// True if so many states of two logs, each with its [`nearest_gaps_within`], are next to the other log that both are of one
-/// motion.
+/// True if so many states of two logs, with their [`nearest_gaps_within`], are next to the other log that both are of one motion.
 fn are_mixed([one, other]: [(&[ScaledState], &[f64]); 2]) -> bool {
     let abroad = |(from, own): (&[ScaledState], &[f64]), to: &[ScaledState]| {
         let range = |axis: usize| extremes(to.iter().map(|at| at[axis])).unwrap_or([0.0; 2]);

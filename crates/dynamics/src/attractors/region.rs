@@ -19,7 +19,7 @@ pub struct Region {
 /// Margin on each side of the states that a region of starts holds, as a share of their range.
 const REGION_MARGIN: f64 = 0.5;
 impl Region {
-    /// The region of the first starts of a search, the pilot: three times the motion's length far and wide about the origin.
+    /// The region of the first starts of a search, the pilot: three times the length of [`Scene::motion_scales`] about the origin.
     pub(super) fn pilot(scene: &Scene) -> Self {
         let Scales { length, rate } = scene.motion_scales();
         let (x, v) = (3.0 * length, 3.0 * rate * length);
@@ -51,8 +51,8 @@ impl Region {
             .then(|| region.clipped_at_stops(scene))
     }
 
-    /// The box about the origin from which commands take starts: twice the motion's length both ways, or wider to hold some
-    /// states.
+    /// The box about the origin from which commands take starts: twice the length of [`Scene::motion_scales`] both ways, or wider
+    /// to hold some states.
     pub(crate) fn start_box(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
         let Scales { length, rate } = scene.motion_scales();
         let (length, room) = (2.0 * length, 1.0 + REGION_MARGIN);

@@ -13,7 +13,7 @@ use softstop::{Scene, Start};
 /// alone.
 ///
 /// # Errors
-/// As [`find_attractors`].
+/// As [`find_attractors`](super::find_attractors).
 pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, OrbitError> {
     Ok(Region::start_box(
         scene,

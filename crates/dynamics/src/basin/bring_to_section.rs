@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use softstop::{CheckedScene, Excitation, MotionError, Start};
 
-/// The state of the motion from a start at drive angle `angle`, in rad, when the drive angle is next phi, at which maps are
-/// taken.
+/// The state of the motion from a start at drive angle `angle`, in rad, when the drive angle is next that of maps, phi.
 pub(crate) fn bring_to_section(
     scene: &CheckedScene,
     start: Start,

@@ -62,7 +62,7 @@ pub struct ErosionProfile {
 
 impl ErosionProfile {
     /// The erosion profile at places s in [0, 1] of a hysteresis zone, with the same starts at each in one box, which is made
-    /// wider if a motion lies outside it. At s_SN itself the motion attracts from one side alone: what it still attracts has a
+    /// wider if a motion lies outside it. At the fold s_SN itself the motion attracts from one side alone: what it still attracts has a
     /// share, but no ball lies in it. The result is the same for any number of threads.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl ErosionProfile {
         })
     }
 
-    /// `count` places of a hysteresis zone, evenly spaced from g0 to s_SN, both of them included.
+    /// `count` places of a hysteresis zone, evenly spaced from grazing (g0) to the fold (s_SN), both included.
     pub fn evenly_spaced_places(count: usize) -> Vec<f64> {
         let last = count.saturating_sub(1).max(1) as f64;
         (0..count).map(|place| place as f64 / last).collect()

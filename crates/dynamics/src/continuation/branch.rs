@@ -1,6 +1,5 @@
 //! Whole branches of orbits: both directions, every special point on the way, and why they end.
 
-use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Vector2};

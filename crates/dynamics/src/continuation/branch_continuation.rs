@@ -1,7 +1,5 @@
 //! Continuation of the orbits of a family along its parameter.
 
-use std::fmt::Debug;
-
 use nalgebra::{DVector, Vector2};
 
 use super::continuation_settings::ContinuationSettings;
@@ -64,7 +62,7 @@ impl<'a> Continuation<'a> {
         self.with_shooting(self.shooting.with_section(self.shooting.turn, periods))
     }
 
-    /// This continuation with its section so many drive periods after drive angle phi.
+    /// This continuation with its section `turn` drive periods after drive angle phi.
     pub(super) fn with_turn(&self, turn: f64) -> Self {
         self.with_shooting(self.shooting.with_section(turn, self.shooting.periods))
     }

@@ -1,7 +1,5 @@
 //! Points of branches, special points among them, and the touch of a grazing orbit.
 
-use std::fmt::Debug;
-
 use nalgebra::Vector2;
 
 use super::{SwitchingSurface, TestFunction};
@@ -74,8 +72,7 @@ pub struct GrazingTouch {
     pub dies: bool,
     /// The surface that is touched; but for the clearance, the number of impacts stays.
     pub surface: SwitchingSurface,
-    /// True if the orbit is its own mirror image half its period later, and touches both of two stops that are alike: the surface
-    /// is one of them.
+    /// True if the orbit is its own mirror image half its period later, and touches both of two equal stops.
     pub is_symmetric: bool,
     /// Crossings of the orbit, the touch left out, or both.
     pub(crate) crossings: usize,

@@ -1,7 +1,5 @@
 //! Settings of a continuation, and how far it follows a branch.
 
-use std::fmt::Debug;
-
 use softstop::SceneError;
 
 /// Open range of a setting, and how it is told.

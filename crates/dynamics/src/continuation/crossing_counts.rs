@@ -1,7 +1,5 @@
 //! The sequence of crossings of an orbit: what it crosses, and how often.
 
-use std::fmt::Debug;
-
 use super::switching_surface::NearGrazing;
 use super::{BorderCollision, SwitchingSurface};
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};

@@ -52,8 +52,7 @@ impl Continuation<'_> {
     }
 
     /// Ends a branch that cannot be followed any farther: where its orbit is one of half its period, in the grazing just ahead,
-    /// at the end of the range just ahead (of values that no machine can have beyond), at an orbit that is too unstable, or
-    /// lost.
+    /// at the end of the range just ahead (of values that no machine can have beyond), at too unstable an orbit, or lost.
     pub(super) fn end_branch(
         &self,
         way: &mut HalfBranch,

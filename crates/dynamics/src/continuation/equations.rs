@@ -1,7 +1,5 @@
 //! Systems of equations whose solutions make curves, and the nodes of those curves.
 
-use std::fmt::Debug;
-
 use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::OrbitError;
@@ -11,13 +9,13 @@ use crate::tolerance::TEST_ROUNDING;
 pub(crate) trait Equations {
     /// What an evaluation brings to light besides the residual.
     type Point: Clone;
-    /// First unknowns for which an evaluation tells the derivatives; those for the others are the slopes.
+    /// Number of first unknowns by which an evaluation tells the derivatives; those by the others are the columns.
     const EXACT_COLUMNS: usize = 0;
 
     /// Evaluates the residual of the equations, and what comes to light besides.
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
 
-    /// Derivatives of the residual, a row for each equation, with these slopes; their error slows the convergence only.
+    /// Derivatives of the residual, a row for each equation, with these columns; their error slows the convergence only.
     fn jacobian(&self, here: &Evaluation<Self::Point>, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let _ = here;
         columns.clone()
@@ -29,7 +27,7 @@ pub(crate) trait Equations {
         None
     }
 
-    /// The slopes to first order in 1e-6, from the motion that an evaluation keeps; none where it does not tell them.
+    /// The columns to first order in 1e-6, from the motion that an evaluation keeps; none where it does not tell them.
     fn variational_columns(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
         let _ = here;
         None

@@ -2,7 +2,6 @@
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
-use std::fmt::Debug;
 
 use super::equations::CurveNode;
 use super::impact_section_orbit::ImpactSectionOrbit;
@@ -65,7 +64,7 @@ impl GrazingTest {
         }
     }
 
-    /// This grazing test with what its distances have lost on the step from the test before.
+    /// This grazing test with what its distances have lost per unit of arclength on the `step` from the test `before`.
     pub fn with_losses_on_step(self, before: &Self, step: f64) -> Self {
         let loss = |(then, now): (Option<NearGrazing>, Option<NearGrazing>)| match (then, now) {
             (Some(then), Some(now))
@@ -79,7 +78,7 @@ impl GrazingTest {
         Self { losses, ..self }
     }
 
-    /// True if a step may graze twice: a distance to a smooth grazing would vanish on it, no crossing changes.
+    /// True if the `step` to the test `ahead` may graze twice: a distance to a smooth grazing would vanish, no crossing changes.
     pub fn may_graze_twice(&self, ahead: &Self, step: f64) -> bool {
         let vanishes = |(touch, loss): (Option<NearGrazing>, f64)| {
             touch.is_some_and(|touch| touch.amount < loss * step)
@@ -91,7 +90,8 @@ impl GrazingTest {
                 .any(vanishes)
     }
 
-    /// True if a step leaves at least `share` of each distance to a grazing that is not smooth, or more than `near`.
+    /// True if the step from the test `before` leaves at least `share` of each distance to a grazing that is not smooth, or comes
+    /// within `near` (scaled) of the grazing.
     pub fn keeps_share_of_distances(&self, before: &Self, share: f64, near: f64) -> bool {
         let leaves = |now: Option<NearGrazing>, then: Option<NearGrazing>| match (now, then) {
             (Some(now), Some(then)) if !self.is_force_continuous(now.surface) => {
@@ -102,7 +102,7 @@ impl GrazingTest {
         leaves(self.dying, before.dying) && leaves(self.rising, before.rising)
     }
 
-    /// True if a crossing with a jump of the force is slower than that (scaled): it is about to die.
+    /// True if a crossing with a jump of the force is slower than `near` (scaled): it is about to die.
     pub fn dies_closer_than(&self, near: f64) -> bool {
         let dies = |touch: NearGrazing| {
             touch.amount < near * self.speed && !self.is_force_continuous(touch.surface)

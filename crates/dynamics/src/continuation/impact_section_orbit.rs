@@ -1,6 +1,5 @@
 //! Orbits seen from a surface at which they begin, and to which their last arc is taken back.
 
-use std::fmt::Debug;
 use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 

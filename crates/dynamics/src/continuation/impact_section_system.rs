@@ -9,7 +9,6 @@
 //! grazing: arXiv 2506.18379, arXiv 2510.16218.)
 
 use std::f64::consts::TAU;
-use std::fmt::Debug;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -156,8 +155,11 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
     /// Velocity in m/s at the section, upwards; 0 of a touch.
     fn velocity(&self, at: &DVector<f64>) -> f64 {
         let [_, speed] = self.family.state_scales();
-        let impact = self.critical_test().map(|_| at[1] * speed);
-        impact.map_or(0.0, |velocity| self.surface.side_sign() * velocity)
+        match (self.critical_test(), self.surface) {
+            (None, _) => 0.0,
+            (_, SwitchingSurface::Below) => -at[1] * speed,
+            _ => at[1] * speed,
+        }
     }
 
     /// Unknowns of an orbit at the section: its drive angle and what else it has there, then the parameters, scaled.

@@ -1,7 +1,5 @@
 //! Newton's method for a point of a solution curve (the corrector), the curve's tangent, and the Jacobian by differences.
 
-use std::fmt::Debug;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::{CurveNode, Equations, Evaluation};
@@ -13,9 +11,9 @@ use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, ROUNDING_SHARE};
 const USUAL_CORRECTIONS: usize = 12;
 /// Most Newton steps of a correction: across a corner of the motion the residual falls by a share only.
 const MAX_CORRECTIONS: usize = 48;
-/// Changes of the unknowns, in units of their rounding, by which that noise is measured.
+/// Changes of the unknowns, in units of their rounding, by which the noise of the residual is measured.
 const NOISE_PROBES: [f64; 4] = [-8.0, -4.0, 4.0, 8.0];
-/// Share of the residual that a step with kept slopes may leave: beyond it, they are not used again.
+/// Share of the residual that a step with kept columns of the Jacobian may leave: beyond it, they are not used again.
 const STALE_SHARE: f64 = 0.02;
 
 /// Corrects a guess by Newton's method: in the plane across `normal` for a curve, with none for as many equations as
@@ -28,7 +26,7 @@ pub(crate) fn correct<E: Equations>(
     correct_with_columns(equations, guess, normal, &mut None, Accuracy::Full)
 }
 
-/// Corrects a guess to a solution where the last unknown is given: its slopes play no part.
+/// Corrects a guess to a solution where the last unknown is given: its column of the Jacobian plays no part.
 pub(crate) fn correct_with_fixed_parameter<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
@@ -52,7 +50,7 @@ pub(super) enum Accuracy {
     Full,
     /// To nine digits, and known from the place one Newton step before.
     Quick,
-    /// To the last digit, with the last unknown given: slopes play no part.
+    /// To the last digit, with the last unknown given: its column plays no part.
     FixedParameter,
 }
 
@@ -86,7 +84,7 @@ pub(super) fn correct_with_columns<E: Equations>(
             .filter(|_| accuracy == Accuracy::FixedParameter || size <= STALE_SHARE * last);
         let shrinks = size / std::mem::replace(&mut last, size);
         let exact = equations.exact_columns(&here);
-        // Newton's method squares the residual, with slopes that are none it shrinks at the same rate.
+        // Newton's method squares the residual, with columns that are none it shrinks at the same rate.
         let next = size
             * if exact.is_some() {
                 shrinks * shrinks
@@ -140,7 +138,7 @@ pub(super) fn border_matrix(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMa
     })
 }
 
-/// Unit tangent of a solution curve at a node, on the side of `along`, and the slopes there.
+/// Unit tangent of a solution curve at a node, on the side of `along`, and the columns of the Jacobian there.
 pub(crate) fn curve_tangent<E: Equations>(
     equations: &E,
     node: &CurveNode<E::Point>,
@@ -158,9 +156,8 @@ pub(crate) fn curve_tangent<E: Equations>(
     }
 }
 
-/// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT_COLUMNS`] first ones, exact where the
-/// system knows them, otherwise differences, one-sided where the other side is another piece
-/// or has no machine.
+/// Columns of the Jacobian at a place, by the unknowns beyond the [`Equations::EXACT_COLUMNS`] first ones: exact where the system
+/// knows them, otherwise differences, one-sided where the other side is another piece or has no machine.
 pub(super) fn jacobian_columns<E: Equations>(
     equations: &E,
     at: &DVector<f64>,

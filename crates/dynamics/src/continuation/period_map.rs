@@ -1,6 +1,5 @@
 //! The map over the drive periods of an orbit, with all that a continuation needs to know.
 
-use std::fmt::Debug;
 use std::sync::Arc as Shared;
 
 use nalgebra::{DVector, Vector2};

@@ -2,7 +2,6 @@
 //! that is its own mirror image.
 
 use std::f64::consts::TAU;
-use std::fmt::Debug;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -35,7 +34,7 @@ impl<'a, const N: usize> Shooting<'a, N> {
         }
     }
 
-    /// This shooting over another number of drive periods, with its section so many of them after drive angle phi.
+    /// This shooting over another number of drive periods, with its section `turn` of them after drive angle phi.
     pub fn with_section(&self, turn: f64, periods: u64) -> Self {
         Self {
             family: self.family,
@@ -106,7 +105,7 @@ impl<const N: usize> Equations for Shooting<'_, N> {
         })
     }
 
-    /// The exact Jacobian of the residual: that of the map, and the slopes.
+    /// The exact Jacobian of the residual: that of the map, and the columns by the parameters.
     fn jacobian(&self, here: &Evaluation<PeriodMap>, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let (m, ratio) = (&here.point.monodromy, self.scales.y / self.scales.x);
         let own = Matrix2::new(m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0);

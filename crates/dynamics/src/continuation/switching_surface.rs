@@ -1,11 +1,9 @@
 //! The surfaces at which the law of force changes, which an orbit may graze, and how near it is to touching one.
 
-use std::fmt::Debug;
-
 use crate::tolerance::ROUNDING;
 use softstop::{Parameter, Scene, Stop};
 
-/// A surface: a surface at which a scene's law of force changes.
+/// A surface at which a scene's law of force changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SwitchingSurface {
     /// The clearance: an impact.
@@ -50,11 +48,6 @@ impl SwitchingSurface {
             Self::Wall => scene.wall().map(|wall| wall.position),
             Self::Below => scene.below.as_ref().map(|below| -below.clearance),
         }
-    }
-
-    /// 1 where a motion meets the surface upwards, -1 where downwards.
-    pub(crate) fn side_sign(self) -> f64 {
-        if self == Self::Below { -1.0 } else { 1.0 }
     }
 
     /// True if meeting the surface is an impact.

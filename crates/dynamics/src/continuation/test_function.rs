@@ -1,7 +1,5 @@
 //! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
-use std::fmt::Debug;
-
 use crate::orbit::Monodromy;
 use crate::tolerance::{NEAR, TEST_ROUNDING};
 
@@ -21,8 +19,7 @@ impl TestFunction {
     /// All tests.
     pub const ALL: [Self; 3] = [Self::Fold, Self::Flip, Self::NeimarkSacker];
 
-    /// The value of the test, scaled by the size of trace and determinant: bounded also where they grow beyond all
-    /// bounds, at grazing.
+    /// The value of the test, scaled by the size of trace and determinant: bounded also at grazing, where these are not.
     pub fn scaled_value(self, monodromy: &Monodromy) -> f64 {
         self.weighted_value(monodromy, 1.0)
     }

@@ -53,7 +53,7 @@ impl Border {
         self.scene.excitation.frequency
     }
 
-    /// The border g0, where the motion without impacts grazes the stop above resonance, or its counterpart below.
+    /// The border g0, where the motion without impacts grazes the stop, `above` resonance or below it.
     ///
     /// # Errors
     /// [`ZoneError`] if the motion without impacts does not graze there; [`ZoneError::Orbit`] for a parameter that the scene

@@ -1,5 +1,4 @@
-//! Exact derivatives by a machine's parameters of orbits' figures ([`differentiate_orbit`]), [`differentiate_stability`] and
-//! [`Border`].
+//! Exact derivatives by a machine's parameters of figures ([`differentiate_orbit`]), [`differentiate_stability`] and [`Border`].
 //!
 //! The motion x(0) = P(x(0), p) is followed by the implicit function theorem, (1 - M) dx/dp = dP/dp; M and dP/dp come from
 //! the variational equation along the motion, with the saltation of each crossing. The drive angle at time 0 is held.

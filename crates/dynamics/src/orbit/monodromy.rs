@@ -25,8 +25,7 @@ impl Monodromy {
         determinant: 0.0,
     };
 
-    /// A monodromy matrix, or a factor of one over a part of the motion, with its determinant, which a caller may know without
-    /// cancellation.
+    /// A monodromy matrix, or a factor of one over a part of the motion, with its determinant, known without cancellation.
     pub(crate) fn with_determinant(matrix: Matrix2<f64>, determinant: f64) -> Self {
         Self {
             matrix,

@@ -29,8 +29,7 @@ impl Regime {
     /// The regime that a motion from `start` shows after `transient` drive periods; none if its state
     /// does not return within 64 periods, as in chaos.
     ///
-    /// The state has returned after n periods if each of the next 64 states lies within 1e-4 of the one n
-    /// periods before it.
+    /// The state has returned after n periods if each of the next 64 states lies within 1e-4 of the one n periods before it.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.

@@ -123,8 +123,7 @@ impl RunUpPeaks {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunUp {
-    /// The attempts, in the order in which they were asked for; ways that a machine does not have, or that cannot be computed,
-    /// are left out.
+    /// The attempts, in the order in which they were asked for; without ways that a machine lacks or that cannot be computed.
     pub ways: Vec<Attempt>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,

@@ -38,8 +38,7 @@ pub struct SettledMotion {
 }
 
 impl SettledMotion {
-    /// What a motion, followed for `followed` drive periods in all, has settled on by the record of its last periods, taken as
-    /// seen.
+    /// What a motion, followed for `followed` drive periods in all, has settled on by the record of its last periods.
     pub(crate) fn of(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
         let states = &member.states;
         let found = find_settled_period(scene.excitation.frequency, states, tolerance)
@@ -101,8 +100,7 @@ impl SettledMotion {
         })
     }
 
-    /// What the record of a member shows: its last `found` drive periods if the motion returns after these, else all recorded
-    /// ones.
+    /// What the record of a member shows: its last `found` drive periods if the motion returns after these, else all.
     fn of_record(member: &Member, found: Option<usize>, followed: u64) -> Self {
         let Member {
             states, impacts, ..

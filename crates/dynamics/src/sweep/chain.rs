@@ -153,8 +153,7 @@ impl SweepStep {
         self.motion != MotionKind::Unsettled
     }
 
-    /// True if the motions of two steps are of different kinds, or their hardest impacts differ by more than `share` of the
-    /// larger.
+    /// True if two steps have motions of different kinds, or hardest impacts that differ by more than `share` of the larger.
     pub(super) fn differs_from(&self, other: &Self, share: f64) -> bool {
         let (one, two) = (self.hardest_impact(), other.hardest_impact());
         let (low, high) = (one.min(two), one.max(two));

@@ -122,8 +122,7 @@ impl Plan {
         chain.steps.len() >= self.steps || chain.error.is_some()
     }
 
-    /// Makes the next step of those sweeps of a group that have made fewest, and returns how many; none if the monitor ends the
-    /// work.
+    /// Makes the next step of those sweeps of a group that have made fewest, and returns how many; none if the monitor stops it.
     fn step_chains(&self, group: &mut [Chain], monitor: Monitor<'_>) -> Option<u64> {
         let afloat = group.iter().filter(|chain| !self.is_complete(chain));
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {

@@ -17,7 +17,8 @@ use softstop::{CheckedScene, Scene};
 /// Rows of frequencies at which z = 1 motions are searched: lowest and highest in units of the natural frequency, and how many.
 /// They lie closer at low frequencies, where a drive period holds several free ones and stable ranges are narrow.
 const SEARCH_ROWS: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
-/// Range of frequencies in which branches are followed, in units of the natural frequency, or of g0; below it they wind.
+/// Range of frequencies in which branches are followed, in units of the natural frequency, or of the grazing
+/// frequency g0 of the impact-less motion; below it they wind.
 pub(super) const FOLLOWED_RANGE: (f64, f64) = (0.25, 8.0);
 /// Most points of a branch that is followed for stable ranges, in each direction.
 const MAX_RANGE_POINTS: usize = 20_000;
@@ -55,7 +56,7 @@ pub fn stable_ranges_with_monitor(
     Ok(find_stable_ranges(scene, monitor)?.ranges)
 }
 
-/// The stable ranges of a scene, and the z = 1 orbits at g0 that their search meets.
+/// The stable ranges of a scene, and the z = 1 orbits at the grazing frequency g0 that their search meets.
 #[derive(Debug)]
 pub(super) struct FoundRanges {
     /// In rising order of frequency.
@@ -155,7 +156,8 @@ fn is_off_branch(
     is_inside && own().is_ok_and(|own| !is_same_state(&own, point.state(), scene))
 }
 
-/// The frequencies at which z = 1 motions are searched: g0, beside both grazings, the [`SEARCH_ROWS`], and beside the lowest.
+/// The frequencies at which z = 1 motions are searched: g0 of grazing, beside both grazings, the [`SEARCH_ROWS`], and beside the
+/// lowest.
 fn search_frequencies(scene: &Scene, grazing: Option<(Option<f64>, f64)>) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = SEARCH_ROWS.into_iter().flat_map(|(low, high, count)| {

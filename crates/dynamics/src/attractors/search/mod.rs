@@ -119,8 +119,7 @@ pub fn classify_start(
     found.into_iter().next().ok_or(OrbitError::Stopped)
 }
 
-/// What the motions from starts have come to after the transient: cheaper than [`classify_start`], and they are followed no
-/// farther.
+/// What the motions from starts have come to after the transient, where they are left: cheaper than [`classify_start`].
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is invalid or a motion cannot be computed; [`OrbitError::Stopped`].
@@ -185,8 +184,7 @@ impl<'a> Search<'a> {
         known.any(|known| is_enough(&known.orbit))
     }
 
-    /// States where motions of the search have come to: those of the orbits reached, or the last ones of motions that have
-    /// reached none.
+    /// States where motions of the search have come to: those of the orbits reached, or the last ones of other motions.
     pub(super) fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
         let members = self.members.iter().map(|it| &it.member);
         members.flat_map(|member| match member.status {

@@ -46,8 +46,7 @@ impl Search<'_> {
         known.map(attractor).collect()
     }
 
-    /// The attractors of wandering motions: chaos, transient chaos, and unsettled ones; `counted`: number of starts that count in
-    /// shares.
+    /// The attractors of wandering motions: chaos, transient chaos, and unsettled ones; `counted`: starts that count in shares.
     fn wandering_attractors(&self, counted: usize) -> Vec<Attractor> {
         let attractor = |(number, group): (&usize, &ChaosCandidate)| {
             let wanders = |it: &&SearchMember| {
