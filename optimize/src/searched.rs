@@ -52,7 +52,7 @@ type AxisRow<'a> = (&'a Problem, &'a Axis);
 fn columns<'a>() -> [Column<AxisRow<'a>>; 7] {
     columns! { AxisRow<'a>, (problem, axis);
         "parameter" [None] Plain, "its key in the machine's file" => problem.machine.name(axis.parameter);
-        "name" [None] Plain, "its name in figures of rivals" => axis.parameter.name();
+        "name" [None] Plain, "its key in rivals" => problem.machine.name(axis.parameter);
         "meaning" [None] Plain, "what it is" => problem.machine.meaning_of(axis.parameter).0;
         "unit" [None] Plain, "unit of its values" => problem.machine.unit_of(axis.parameter);
         "low" [None] Six, "lower end" => axis.range.low;

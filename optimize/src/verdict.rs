@@ -52,7 +52,7 @@ pub(crate) fn rival(problem: &Problem, design: &Design) -> Record {
     let axes = axes.chain([Parameter::Frequency]);
     let head = axes.fold(Record::default(), |record, it| {
         let label = design.machine.label_of(it);
-        record.with(it.name(), &label, design.machine.value(it))
+        record.with(design.machine.name(it), &label, design.machine.value(it))
     });
     let figure = problem.objective.figure;
     let value = design

@@ -328,6 +328,13 @@ fn a_distant_design_that_is_nearly_as_good_is_told() -> Outcome {
     let told = format!("is nearly as good: {velocity:.3} at clearance");
     assert!(page.contains(&told), "{told}");
     assert!(text.contains("Nearly as good"));
+    // Each value stands under the key of the machine's file, in its unit.
+    for axis in report.list("search/axes") {
+        let key = axis["parameter"].as_str().ok_or("a key")?;
+        let value = report.at("rivals/0")[key].as_f64().ok_or(key)?;
+        let [low, high] = ["low", "high"].map(|end| axis[end].as_f64());
+        assert!(low.ok_or(key)? <= value && value <= high.unwrap_or(f64::INFINITY));
+    }
     Ok(())
 }
 

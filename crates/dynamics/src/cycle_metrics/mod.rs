@@ -114,7 +114,9 @@ impl CycleMetrics {
             duration,
             impact_velocity: hardest,
             impact_energy: energy(hardest),
-            impact_power: orbit.before_impact_velocities().map(energy).sum::<f64>() / duration,
+            // The sum of no terms is -0.0.
+            impact_power: (0.0 + orbit.before_impact_velocities().map(energy).sum::<f64>())
+                / duration,
             highest,
             lowest,
             length: highest - lowest,
