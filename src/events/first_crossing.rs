@@ -40,8 +40,8 @@ pub fn first_crossing(
 
 /// Searches an arc for its first crossing as [`first_crossing`] does, which charges what the scanned time costs.
 fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64) -> NextEvent {
-    if let Some(segment) = course.taylor_step() {
-        return crossing_on_step(segment, guards, node);
+    if let Some(step) = course.taylor_step() {
+        return crossing_on_step(step, guards, node);
     }
     if let Some(chatter) = course.chatter() {
         return NextEvent::Ends(chatter.duration);

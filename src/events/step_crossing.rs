@@ -7,26 +7,22 @@ use crate::flow::{DEGREE, ScanNode, TaylorStep, value};
 
 /// The first crossing from `node` to the end of a Taylor step, by the series of each guard, whose coefficients give the
 /// bound on the fourth derivative.
-pub(super) fn crossing_on_step(
-    segment: &TaylorStep,
-    guards: &[Guard],
-    node: ScanNode,
-) -> NextEvent {
-    let (from, to) = (segment.sigma_after(node.elapsed), segment.reach);
-    let (position, velocity) = segment.last_state();
+pub(super) fn crossing_on_step(step: &TaylorStep, guards: &[Guard], node: ScanNode) -> NextEvent {
+    let (from, to) = (step.sigma_after(node.elapsed), step.reach);
+    let (position, velocity) = step.last_state();
     let finite = position.is_finite() && velocity.is_finite();
-    let held = segment.is_still() && !segment.forcing_at(to).is_finite();
+    let held = step.is_still() && !step.forcing_at(to).is_finite();
     if !(to > 0.0 && finite) || held {
         return NextEvent::Unbounded(node);
     }
     let rise = |guard: &Guard| {
         if guard.is_of_position()
-            && segment.position_guard_stays_below(guard.position, guard.level, to)
+            && step.position_guard_stays_below(guard.position, guard.level, to)
         {
             return None;
         }
         let coefficients =
-            segment.guard_series(guard.position, guard.velocity, guard.forcing, guard.level);
+            step.guard_series(guard.position, guard.velocity, guard.forcing, guard.level);
         if series_stays_below(&coefficients, to) {
             return None;
         }
@@ -38,11 +34,11 @@ pub(super) fn crossing_on_step(
         candidate.first_rise(candidate.point_at(from), candidate.point_at(to))
     };
     match earliest_rise(guards, rise) {
-        None => NextEvent::Ends(segment.end),
+        None => NextEvent::Ends(step.end),
         Some((guard, sigma)) => {
-            let (position, velocity) = segment.state_at(sigma);
+            let (position, velocity) = step.state_at(sigma);
             NextEvent::Crossing(FoundCrossing {
-                elapsed: segment.time_at_sigma(sigma),
+                elapsed: step.time_at_sigma(sigma),
                 guard,
                 position,
                 velocity,

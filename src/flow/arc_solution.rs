@@ -84,8 +84,8 @@ impl ArcSolution {
 
     /// The next Taylor step of `flow`, from a departure whose position lacks the rounding `low`.
     pub(crate) fn next_step(flow: &LinearLaw, departure: Departure, low: f64) -> Self {
-        let segment = TaylorStep::of_linear_law(flow, &departure, low);
-        Self::with_form(flow, departure, Form::TaylorStep(Arc::new(segment)))
+        let step = TaylorStep::of_linear_law(flow, &departure, low);
+        Self::with_form(flow, departure, Form::TaylorStep(Arc::new(step)))
     }
 
     /// Replaces this motion by one Taylor step of `flow` together with a power law, from `deflection` m beyond its face.
@@ -96,13 +96,13 @@ impl ArcSolution {
         departure: Departure,
         deflection: f64,
     ) {
-        let segment = TaylorStep::under_power_law(flow, hertz, &departure, deflection);
+        let step = TaylorStep::under_power_law(flow, hertz, &departure, deflection);
         if let Form::TaylorStep(before) = &mut self.form
             && let Some(place) = Arc::get_mut(before)
         {
-            *place = segment;
+            *place = step;
         } else {
-            self.form = Form::TaylorStep(Arc::new(segment));
+            self.form = Form::TaylorStep(Arc::new(step));
         }
         self.flow = *flow;
         self.departure = departure;
@@ -116,7 +116,7 @@ impl ArcSolution {
     /// The Taylor step that this motion is; none if it has another form.
     pub(crate) fn taylor_step(&self) -> Option<&TaylorStep> {
         match &self.form {
-            Form::TaylorStep(segment) => Some(segment),
+            Form::TaylorStep(step) => Some(step),
             _ => None,
         }
     }
@@ -158,7 +158,7 @@ impl ArcSolution {
     pub fn is_held(&self) -> bool {
         match &self.form {
             Form::Held => true,
-            Form::TaylorStep(segment) => segment.is_still(),
+            Form::TaylorStep(step) => step.is_still(),
             _ => false,
         }
     }
@@ -170,7 +170,7 @@ impl ArcSolution {
             Form::TaylorStep(_) if elapsed <= 0.0 => {
                 return (self.departure.position, self.departure.velocity);
             }
-            Form::TaylorStep(segment) => return segment.state_after(elapsed),
+            Form::TaylorStep(step) => return step.state_after(elapsed),
             Form::Chatter(chatter) => {
                 let (distance, velocity) = chatter.state_after(elapsed);
                 return (self.departure.position + distance, velocity);
@@ -280,8 +280,8 @@ impl ArcSolution {
 
     /// The forcing per mass in m/s^2, drive included, `elapsed` seconds after departure.
     pub(crate) fn forcing_at(&self, elapsed: f64) -> f64 {
-        if let Form::TaylorStep(segment) = &self.form {
-            return segment.forcing_at(segment.sigma_after(elapsed));
+        if let Form::TaylorStep(step) = &self.form {
+            return step.forcing_at(step.sigma_after(elapsed));
         }
         self.linear_forcing_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
     }

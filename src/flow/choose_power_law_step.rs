@@ -44,7 +44,7 @@ impl TaylorStep {
                 ..Self::under_power_law(flow, &hertz.on_side(-1.0), &from.mirrored(), deflection)
             };
         }
-        let mut segment = if deflection <= 0.0 && from.velocity == 0.0 {
+        let mut step = if deflection <= 0.0 && from.velocity == 0.0 {
             Self::step_without_power_law(flow, hertz, from, 0.0)
         } else if is_sphere(hertz, from) {
             Self::in_regularized_time(flow, hertz, from, deflection)
@@ -60,12 +60,12 @@ impl TaylorStep {
             }
         };
         if let Some(creeping) =
-            Self::slow_step_under_power_law(flow, hertz, from, deflection, segment.end)
+            Self::slow_step_under_power_law(flow, hertz, from, deflection, step.end)
         {
-            segment = creeping;
+            step = creeping;
         }
-        segment.departed = deflection;
-        segment
+        step.departed = deflection;
+        step
     }
 
     /// The Taylor step on the slow manifold of a power law, where one is possible and much longer than the length
@@ -98,15 +98,14 @@ impl TaylorStep {
             forcing: &load,
         };
         let slow_manifold = equation.slow_motion((deflection, from.velocity), span)?;
-        let mut segment = Self::without_motion(flow, hertz);
-        segment.depth = slow_manifold.depth;
-        segment.forcing = forcing;
-        segment.is_pressed = true;
-        segment.slow_manifold = Some(Box::new(slow_manifold));
-        let holds =
-            convergence_reach(&segment.depth).min(convergence_reach(&segment.velocity_series()));
-        segment.end_at(holds.min(span));
-        (segment.end > limits.slow_gain * usual).then_some(segment)
+        let mut step = Self::without_motion(flow, hertz);
+        step.depth = slow_manifold.depth;
+        step.forcing = forcing;
+        step.is_pressed = true;
+        step.slow_manifold = Some(Box::new(slow_manifold));
+        let holds = convergence_reach(&step.depth).min(convergence_reach(&step.velocity_series()));
+        step.end_at(holds.min(span));
+        (step.end > limits.slow_gain * usual).then_some(step)
     }
 
     /// The Taylor step in time from hardly any deflection, as long as the power law's part of the motion is below rounding.
@@ -117,18 +116,18 @@ impl TaylorStep {
         deflection: f64,
     ) -> Self {
         let start = (hertz.origin + deflection, from.velocity);
-        let mut segment = Self::linear_in_time(flow, hertz, from, start);
-        segment.depth[0] = deflection;
-        let bounds = [segment.depth, segment.velocity_series()].map(|series| majorant(&series));
-        let reach = segment.reach_under_polynomial_force(flow, from);
-        segment.end_at(if hertz.stiffness > 0.0 {
+        let mut step = Self::linear_in_time(flow, hertz, from, start);
+        step.depth[0] = deflection;
+        let bounds = [step.depth, step.velocity_series()].map(|series| majorant(&series));
+        let reach = step.reach_under_polynomial_force(flow, from);
+        step.end_at(if hertz.stiffness > 0.0 {
             span_without_power_law(hertz, reach, |span| {
                 (value(&bounds[0], span), value(&bounds[1], span), span)
             })
         } else {
             reach
         });
-        segment
+        step
     }
 }
 

@@ -83,14 +83,10 @@ impl ArcSolution {
                         .parameter_response_by_doubling(&self.departure, elapsed),
                 )
             }
-            Form::TaylorStep(segment)
-                if segment.slow_manifold.is_none() && segment.hertz.stiffness > 0.0 =>
+            Form::TaylorStep(step)
+                if step.slow_manifold.is_none() && step.hertz.stiffness > 0.0 =>
             {
-                Some(self.parameter_response_of_step(
-                    segment,
-                    segment.sigma_after(elapsed),
-                    logarithm,
-                ))
+                Some(self.parameter_response_of_step(step, step.sigma_after(elapsed), logarithm))
             }
             _ => None,
         }

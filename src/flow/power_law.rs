@@ -66,7 +66,7 @@ impl PowerLaw {
     }
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m while it presses.
-    pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
+    pub fn force_derivatives(&self, position: f64, velocity: f64) -> (f64, f64) {
         let depth = self.deflection(position).max(0.0);
         let grip = self.dissipation_factor(velocity);
         let steepness = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);

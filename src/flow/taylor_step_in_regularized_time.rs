@@ -18,35 +18,34 @@ impl TaylorStep {
         from: &Departure,
         deflection: f64,
     ) -> Self {
-        let mut segment = Self::without_motion(flow, hertz);
+        let mut step = Self::without_motion(flow, hertz);
         let deflection = deflection.max(0.0);
         let (regularized, holds) = if is_sphere(hertz, from) {
             let regularized = match hertz.dissipation > 0.0 {
-                true => segment.expand_sphere::<true>(flow, from, deflection),
-                false => segment.expand_sphere::<false>(flow, from, deflection),
+                true => step.expand_sphere::<true>(flow, from, deflection),
+                false => step.expand_sphere::<false>(flow, from, deflection),
             };
             let holds = sphere_convergence_reach(&regularized.velocity);
             (regularized, holds)
         } else {
-            let regularized = segment.expand_root(flow, from, deflection);
+            let regularized = step.expand_root(flow, from, deflection);
             let holds = convergence_reach(&regularized.velocity);
             (regularized, holds)
         };
         // What is below rounding of the velocity is so of the root.
-        segment.reach = holds.min(regularized.reach_within(flow.reach, from.forcing.is_linear()));
-        if !segment.is_pressed && hertz.stiffness > 0.0 {
-            let bounds =
-                [segment.depth, regularized.velocity, regularized.time].map(|s| majorant(&s));
-            segment.reach = span_without_power_law(hertz, segment.reach, |span| {
+        step.reach = holds.min(regularized.reach_within(flow.reach, from.forcing.is_linear()));
+        if !step.is_pressed && hertz.stiffness > 0.0 {
+            let bounds = [step.depth, regularized.velocity, regularized.time].map(|s| majorant(&s));
+            step.reach = span_without_power_law(hertz, step.reach, |span| {
                 let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
                 (depth, speed, time)
             });
         }
-        segment.contact = regularized.last_contact(segment.reach);
-        segment.end = value(&regularized.time, segment.contact);
-        segment.regularized = Some(regularized);
-        segment.last = segment.state_on_step_at(segment.contact);
-        segment
+        step.contact = regularized.last_contact(step.reach);
+        step.end = value(&regularized.time, step.contact);
+        step.regularized = Some(regularized);
+        step.last = step.state_on_step_at(step.contact);
+        step
     }
 
     /// Computes all series of a step in regularised time, that of the root of the deflection among them.

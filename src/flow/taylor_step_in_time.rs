@@ -21,24 +21,24 @@ use super::{Departure, LinearLaw};
 impl TaylorStep {
     /// The Taylor step in time of a linear law; `low` is what rounding took from the position before.
     pub fn of_linear_law(flow: &LinearLaw, from: &Departure, low: f64) -> Self {
-        let mut segment = Self::linear_in_time(
+        let mut step = Self::linear_in_time(
             flow,
             &PowerLaw::default(),
             from,
             (from.position, from.velocity),
         );
-        segment.low = low;
-        segment.end_at(segment.reach_under_polynomial_force(flow, from));
-        segment
+        step.low = low;
+        step.end_at(step.reach_under_polynomial_force(flow, from));
+        step
     }
 
     /// The Taylor step in time of a mass that is held while the forcing changes.
     pub fn of_held_mass(flow: &LinearLaw, from: &Departure) -> Self {
-        let mut segment = Self::without_motion(flow, &PowerLaw::default());
-        segment.depth[0] = from.position;
-        segment.forcing = forcing_series(flow, from);
-        segment.end_at(flow.reach.min(leading_convergence_reach(&segment.forcing)));
-        segment
+        let mut step = Self::without_motion(flow, &PowerLaw::default());
+        step.depth[0] = from.position;
+        step.forcing = forcing_series(flow, from);
+        step.end_at(flow.reach.min(leading_convergence_reach(&step.forcing)));
+        step
     }
 
     /// The Taylor step in time of a linear law from the state `start`, not yet ended.
@@ -53,10 +53,10 @@ impl TaylorStep {
             Some(acceleration) => taylor.with_acceleration(flow, acceleration),
             None => taylor,
         };
-        let mut segment = Self::without_motion(flow, hertz);
-        segment.depth = taylor.position;
-        segment.forcing = taylor.forcing;
-        segment
+        let mut step = Self::without_motion(flow, hertz);
+        step.depth = taylor.position;
+        step.forcing = taylor.forcing;
+        step
     }
 
     /// Time in s over which the series of a step in time hold to rounding, and over which the terms that the external force's
@@ -88,18 +88,18 @@ impl TaylorStep {
         from: &Departure,
         (deflection, raised): (f64, f64),
     ) -> Option<Self> {
-        let mut segment = Self::without_motion(flow, hertz);
-        segment.forcing = forcing_series(flow, from);
-        segment.is_pressed = true;
+        let mut step = Self::without_motion(flow, hertz);
+        step.forcing = forcing_series(flow, from);
+        step.is_pressed = true;
         let start = (deflection, from.velocity, raised);
-        let velocity = segment.expand_power_law(flow, start);
+        let velocity = step.expand_power_law(flow, start);
         if !velocity[DEGREE].is_finite() {
             return None;
         }
         // The series hold to a little beyond the face.
         let ways = 1.25 * deflection / from.velocity.abs();
-        segment.end_before(flow.reach.min(ways), from, &velocity);
-        Some(segment)
+        step.end_before(flow.reach.min(ways), from, &velocity);
+        Some(step)
     }
 
     /// The Taylor step in time under a power law with n = 2, which is regular at the face, too.
@@ -109,12 +109,12 @@ impl TaylorStep {
         from: &Departure,
         deflection: f64,
     ) -> Self {
-        let mut segment = Self::without_motion(flow, hertz);
-        segment.forcing = forcing_series(flow, from);
-        segment.is_pressed = true;
-        let velocity = segment.expand_square_law(flow, (deflection, from.velocity));
-        segment.end_before(flow.reach, from, &velocity);
-        segment
+        let mut step = Self::without_motion(flow, hertz);
+        step.forcing = forcing_series(flow, from);
+        step.is_pressed = true;
+        let velocity = step.expand_square_law(flow, (deflection, from.velocity));
+        step.end_before(flow.reach, from, &velocity);
+        step
     }
 
     /// Ends a step in time where its series no longer hold to rounding, or at `limit` s.

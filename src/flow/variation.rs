@@ -40,10 +40,10 @@ impl ArcSolution {
     pub(crate) fn state_variation(&self, elapsed: f64, by: Variation) -> (f64, f64) {
         match &self.form {
             Form::Held | Form::Chatter(_) => (by.position, 0.0),
-            Form::TaylorStep(segment) if segment.is_still() => (by.position, 0.0),
-            Form::TaylorStep(segment) => {
-                let sigma = segment.sigma_after(elapsed);
-                let [position, velocity] = segment.state_variation(by);
+            Form::TaylorStep(step) if step.is_still() => (by.position, 0.0),
+            Form::TaylorStep(step) => {
+                let sigma = step.sigma_after(elapsed);
+                let [position, velocity] = step.state_variation(by);
                 (value(&position, sigma), value(&velocity, sigma))
             }
             Form::Particular { .. } | Form::Responses => {
@@ -140,8 +140,8 @@ impl ArcSolution {
     pub(crate) fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
         match &self.form {
             Form::Held | Form::Chatter(_) => 0.0,
-            Form::TaylorStep(segment) if segment.is_still() => 0.0,
-            Form::TaylorStep(segment) => segment.supply_variation(elapsed, by, law),
+            Form::TaylorStep(step) if step.is_still() => 0.0,
+            Form::TaylorStep(step) => step.supply_variation(elapsed, by, law),
             Form::Particular { .. } | Form::Responses => {
                 self.supply_variation_of_linear(elapsed, by, law)
             }

@@ -27,7 +27,7 @@ impl ArcSolution {
         let elapsed = to.elapsed;
         match &self.form {
             Form::Held | Form::Chatter(_) => WorkIntegrals::default(),
-            Form::TaylorStep(segment) => segment.work(elapsed, law),
+            Form::TaylorStep(step) => step.work(elapsed, law),
             &Form::Particular {
                 particular,
                 deviation,

@@ -48,7 +48,7 @@ impl Simulation {
                 let contact = phase.contact_force(position, velocity);
                 let free = self.scene.damping * velocity + self.scene.stiffness * position;
                 let acceleration = (forcing - free - contact) / self.scene.mass;
-                let (stiffness, damping) = phase.slopes(position, velocity);
+                let (stiffness, damping) = phase.force_derivatives(position, velocity);
                 let resisting = damping * acceleration + stiffness * velocity;
                 (
                     contact,
@@ -132,7 +132,7 @@ impl Simulation {
         } = self.sample();
         let (x, v, a) = (position, velocity, acceleration);
         // The law of force along the motion: F' = K v + C a, F'' = K a + C j + K' v + C' a.
-        let (stiffness, damping) = phase.slopes(x, v);
+        let (stiffness, damping) = phase.force_derivatives(x, v);
         let (stiffening, coupling) = phase
             .hertz
             .map_or((0.0, 0.0), |hertz| hertz.curvatures(x, v));

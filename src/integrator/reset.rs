@@ -205,7 +205,7 @@ impl ResetContext<'_> {
         let phases = self.phases;
         let (out, back) = (at.before, phases.at_velocity(at.before, at.side));
         let rest = |phase| at.side * phases.acceleration(phase, at.position, 0.0, forcing);
-        let slopes = [out, back].map(|phase| phases[phase].slopes(at.position, 0.0));
+        let slopes = [out, back].map(|phase| phases[phase].force_derivatives(at.position, 0.0));
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.amplitude * phases.frequency;
         let velocity = -at.side * speed;

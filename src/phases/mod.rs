@@ -263,8 +263,8 @@ impl Phase {
     }
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop together.
-    pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
-        let of_hertz = |hertz: PowerLaw| hertz.slopes(position, velocity);
+    pub fn force_derivatives(&self, position: f64, velocity: f64) -> (f64, f64) {
+        let of_hertz = |hertz: PowerLaw| hertz.force_derivatives(position, velocity);
         let (stiffness, damping) = self.hertz.map_or((0.0, 0.0), of_hertz);
         (self.law.stiffness + stiffness, self.law.damping + damping)
     }

@@ -43,7 +43,7 @@ impl StopEnergy {
     pub fn stiffness_at(&self, position: f64) -> f64 {
         let hertz = self
             .hertz
-            .map_or(0.0, |hertz| hertz.slopes(position, 0.0).0);
+            .map_or(0.0, |hertz| hertz.force_derivatives(position, 0.0).0);
         self.spring.stiffness + hertz
     }
 }

@@ -277,7 +277,7 @@ impl SensitivityRecorder<'_> {
             return (0.0, self.force - scene.stiffness * self.position);
         };
         let Start { position, velocity } = motion.state();
-        let (stiffness, damping) = phase.slopes(position, velocity);
+        let (stiffness, damping) = phase.force_derivatives(position, velocity);
         let resisting = stiffness * self.position + damping * self.velocity;
         let free = scene.stiffness * self.position + scene.damping * self.velocity;
         ((self.force - resisting) / scene.mass, resisting - free)

@@ -130,7 +130,7 @@ impl PhaseDerivatives {
             let log = if power != 0.0 { depth.ln() } else { 0.0 };
             let by_stiffness = stiffness + hertz.stiffness * exponent * log;
             force += power * (by_stiffness * grip + hertz.stiffness * dissipation * velocity);
-            force -= hertz.slopes(position, hertz.side * velocity).0 * face;
+            force -= hertz.force_derivatives(position, hertz.side * velocity).0 * face;
         }
         force
     }

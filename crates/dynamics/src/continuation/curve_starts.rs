@@ -213,7 +213,7 @@ fn fold_near_generalised_flip(
         .flatten()
         .filter_map(|index| points.get(index));
     beside.find_map(|flip| {
-        let [slope, _] = family.parameter_slopes(flip.parameters);
+        let [slope, _] = family.parameter_derivatives(flip.parameters);
         let within = off(flip) * slope;
         fold_of_doubled_orbits(family, flips.periods, flip, within, region)
     })

@@ -49,7 +49,7 @@ impl<const PARAMETERS: usize> dyn Family<PARAMETERS> + '_ {
     }
 
     /// Derivatives of the parameters by the unknowns that they are.
-    pub fn parameter_slopes(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+    pub fn parameter_derivatives(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
         let slope = |index: usize| parameters[index].abs() / MAX_SCALED_PARAMETER;
         std::array::from_fn(|index| scales[index].max(slope(index)))

@@ -143,7 +143,7 @@ impl<const N: usize> Equations for Shooting<'_, N> {
         let mut columns = DMatrix::zeros(2, N);
         let parameters = self.parameters(&here.point.place);
         let units = self.family.by_frequency().into_iter();
-        let by = units.zip(self.family.parameter_slopes(parameters));
+        let by = units.zip(self.family.parameter_derivatives(parameters));
         for (index, (unit, slope)) in by.enumerate() {
             columns.set_column(index, &(change * (unit? * slope)));
         }

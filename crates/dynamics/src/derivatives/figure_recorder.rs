@@ -96,7 +96,7 @@ impl<'a> FigureRecorder<'a> {
         if known.is_some_and(|known| known.value >= value) {
             return;
         }
-        let (stiffness, damping) = contact_force_slopes(self.phases, phase, x, v);
+        let (stiffness, damping) = contact_force_derivatives(self.phases, phase, x, v);
         let missing = || vec![Vector3::repeat(f64::NAN); 2 + self.by.len()];
         let columns = columns(self).unwrap_or_else(missing);
         let parts = columns.iter().enumerate().map(|(index, column)| {
@@ -122,8 +122,13 @@ impl<'a> FigureRecorder<'a> {
 }
 
 /// d(contact force)/d(position) in N/m and d(contact force)/d(velocity) in N s/m.
-pub(super) fn contact_force_slopes(phases: &Phases, phase: &Phase, x: f64, v: f64) -> (f64, f64) {
-    let (stiffness, damping) = phase.slopes(x, v);
+pub(super) fn contact_force_derivatives(
+    phases: &Phases,
+    phase: &Phase,
+    x: f64,
+    v: f64,
+) -> (f64, f64) {
+    let (stiffness, damping) = phase.force_derivatives(x, v);
     let free = &phases[PhaseId::FREE].law;
     (stiffness - free.stiffness, damping - free.damping)
 }
@@ -217,7 +222,7 @@ pub(super) fn contact_force_peaks<'a>(
     };
     let rate = move |time: f64| {
         let [x, v, a] = state(time);
-        let (stiffness, damping) = phase.slopes(x, v);
+        let (stiffness, damping) = phase.force_derivatives(x, v);
         phase.side * ((stiffness - free.stiffness) * v + (damping - free.damping) * a)
     };
     let (each, least, most) = PEAK_PIECES;

@@ -35,7 +35,7 @@ fn unknowns_of_parameters_are_taken_back() {
         let values = [size * scales[0], -size * scales[1]];
         let unknowns = family.scaled_parameters(values);
         let back = family.unscaled_parameters(&unknowns);
-        let slopes = family.parameter_slopes(values);
+        let slopes = family.parameter_derivatives(values);
         for index in 0..2 {
             let rounding = GROWN * values[index].abs();
             assert_near(back[index], values[index], rounding);

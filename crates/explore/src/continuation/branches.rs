@@ -128,7 +128,7 @@ fn ends_at(
     branch: &Branch,
     point: &BranchPoint,
 ) -> bool {
-    let [slope] = family.parameter_slopes([point.parameter]);
+    let [slope] = family.parameter_derivatives([point.parameter]);
     let [length, speed] = family.state_scales();
     let is_beside =
         |last: &&BranchPoint| (last.parameter - point.parameter).abs() < MERGING_DISTANCE * slope;

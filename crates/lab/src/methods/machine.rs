@@ -154,8 +154,8 @@ impl Machine {
 
     /// -d(acceleration)/d(position) in 1/s^2 and -d(acceleration)/d(velocity) in 1/s. They come with an
     /// evaluation.
-    pub fn slopes(&self, laws: Laws, position: f64, velocity: f64) -> (f64, f64) {
-        let of = |phase: PhaseId| self.phases()[phase].slopes(position, velocity);
+    pub fn force_derivatives(&self, laws: Laws, position: f64, velocity: f64) -> (f64, f64) {
+        let of = |phase: PhaseId| self.phases()[phase].force_derivatives(position, velocity);
         let [one, other] = self.laws(laws, position, velocity).map(of);
         let per_mass = 0.5 / self.scene.mass;
         ((one.0 + other.0) * per_mass, (one.1 + other.1) * per_mass)

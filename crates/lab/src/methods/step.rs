@@ -173,7 +173,7 @@ impl Balance {
         let at = |(constant, factor): (f64, f64)| factor.mul_add(a, constant);
         let (position, velocity) = (at(self.position), at(self.velocity));
         let acceleration = machine.acceleration(self.laws, self.time, position, velocity);
-        let (stiffness, damping) = machine.slopes(self.laws, position, velocity);
+        let (stiffness, damping) = machine.force_derivatives(self.laws, position, velocity);
         Rest {
             value: at(self.inertia) - acceleration,
             slope: self.inertia.1 + stiffness * self.position.1 + damping * self.velocity.1,

@@ -76,7 +76,7 @@ impl<'a> Leg<'a> {
         self.count();
         let (stiffness, damping) = match self.phase {
             Some(phase) => {
-                let (stiffness, damping) = phase.slopes(position, velocity);
+                let (stiffness, damping) = phase.force_derivatives(position, velocity);
                 (stiffness / self.scene.mass, damping / self.scene.mass)
             }
             None => (self.scene.excitation.frequency.powi(2), 0.0),
