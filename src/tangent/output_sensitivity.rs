@@ -263,7 +263,7 @@ impl SensitivityRecorder<'_> {
         let forcing = mass * arc.course.forcing_at(time) - phase.law.force;
         let acceleration =
             (forcing - stiffness * x - damping * v - phase.contact_force(x, v)) / mass;
-        let (all, damped) = phase.slopes(x, v);
+        let (all, damped) = phase.force_derivatives(x, v);
         let change = |way: f64, speed: f64| (all - stiffness) * way + (damped - damping) * speed;
         (
             arc.side * change(position, velocity),
