@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use clap::Args;
 use softstop::internals::Motion;
-use softstop::{Allowed, Machine, Start};
+use softstop::{Allowed, Machine, MotionError, Start};
 
 use softstop_console::arguments::CommandArguments;
 use softstop_console::failure::Failure;
@@ -73,7 +73,12 @@ impl MotionArguments {
             samples,
             drawn,
         };
-        plan.motion().map(|_| plan)
+        match plan.machine.scene.motion(plan.machine.start) {
+            Err(error @ MotionError::BeyondStop { .. }) if self.position.is_none() => {
+                Err(Failure::usage(format!("initial.{error}")))
+            }
+            begun => Ok(begun.map(|_| plan)?),
+        }
     }
 }
 

@@ -256,13 +256,17 @@ fn check(
     parameter: Parameter,
     ends: [f64; 2],
 ) -> Result<(), Failure> {
+    let own = match arguments.clearances.is_empty() {
+        true => String::new(),
+        false => format!("--clearances {} with ", machine.scene.clearance),
+    };
     let told = [("--from", arguments.from), ("--to", arguments.to)];
     for ((flag, value), end) in told.into_iter().zip(ends) {
         let mut machine = machine.clone();
         machine.set(parameter, end);
         machine
             .validate()
-            .map_err(|error| Failure::usage(format!("{flag} {value}: {error}")))?;
+            .map_err(|error| Failure::usage(format!("{own}{flag} {value}: {error}")))?;
     }
     Ok(())
 }
