@@ -116,6 +116,25 @@ fn samples_stay_in_their_range_and_figures_agree() -> Outcome {
 }
 
 #[test]
+fn few_periods_are_watched_all() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let axis = "[[axis]]\nparameter = \"eta\"\nfrom = 1.1\nto = 1.2\ncount = 3\n";
+    let of = |motion: &str, out: &str| -> Result<_, std::io::Error> {
+        let study = format!(
+            "machine = \"unloaded\"\noutputs = [\"z\", \"velocity\"]\n{axis}[motion]\n{motion}"
+        );
+        let out = folder.path().join(out);
+        STUDY.json_into(&out, &[&written(folder.path(), &study)?, "--csv"]);
+        table(&out)
+    };
+    assert_eq!(
+        of("periods = 50", "a")?,
+        of("periods = 50\nwatched = 50", "b")?
+    );
+    Ok(())
+}
+
+#[test]
 fn shards_in_any_order_are_the_whole() -> Outcome {
     let folder = tempfile::tempdir()?;
     let study = written(folder.path(), MAP)?;

@@ -41,20 +41,18 @@ struct File {
 #[serde(deny_unknown_fields, default)]
 struct Motion {
     periods: u64,
-    watched: u64,
+    watched: Option<u64>,
     longest: Option<u64>,
     tolerance: f64,
 }
 
 impl Default for Motion {
     fn default() -> Self {
-        let Settling {
-            watched, tolerance, ..
-        } = Settling::default();
+        let tolerance = Settling::default().tolerance;
         Self {
             // Watching costs as much again: it is to be a small part.
             periods: 1000,
-            watched,
+            watched: None,
             longest: None,
             tolerance,
         }
@@ -240,6 +238,7 @@ fn settling(motion: &Motion) -> Result<Settling, Failure> {
         tolerance,
     } = *motion;
     within("motion.periods", periods, 16..=1_000_000)?;
+    let watched = watched.unwrap_or(Settling::default().watched.min(periods));
     within("motion.watched", watched, 16..=periods.min(4096))?;
     let longest = longest.unwrap_or(PATIENCE * periods);
     within("motion.longest", longest, periods..=PATIENCE * 1_000_000)?;

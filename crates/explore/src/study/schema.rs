@@ -49,7 +49,7 @@ pub fn schema() -> Value {
                 "properties": {
                     "periods": told(count(16, 1_000_000), "Drive periods that each motion is followed."),
                     "longest": told(count(16, 16_000_000), "Drive periods at most: what has not returned is followed on to twice as many, again and again, up to these; 16 times `periods` if absent."),
-                    "watched": told(count(16, 4096), "The last of them, in which it is looked at."),
+                    "watched": told(count(16, 4096), "The last of them, in which it is looked at; 64, or `periods` if these are fewer, if absent."),
                     "tolerance": told(number.clone(), "Distance within which a state has returned, as a share of the motion's size."),
                 },
                 "additionalProperties": false,
