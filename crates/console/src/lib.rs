@@ -95,7 +95,8 @@ const SET_TIP: &str = "where a command takes a machine, --set KEY=VALUE changes 
 
 /// Writes to the standard error. A reader that has gone away (`2>&1 | head`) is no reason to panic.
 fn say(text: &str) {
-    let _ = io::stderr().write_all(names::escaped(text).as_bytes());
+    let text = names::escaped(&names::shortened(text));
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Names that users give: of files that any system takes, and texts without control characters.
 
+use std::path::MAIN_SEPARATOR;
+
 use crate::failure::Failure;
 
 /// Names that Windows keeps for devices, whatever follows behind a dot.
@@ -62,6 +64,26 @@ pub fn escaped(text: &str) -> String {
     all
 }
 
+/// Characters of a word that an error shows whole, and of a longer one.
+const MAX_WORD: usize = 120;
+const SHOWN: usize = 60;
+
+/// A text whose overlong words, but paths, are cut, with the number of their characters.
+pub fn shortened(text: &str) -> String {
+    let shorten = |part: &str| {
+        let word = part.trim_end_matches(|c: char| !c.is_alphanumeric());
+        let count = word.chars().count();
+        if count <= MAX_WORD || word.contains(MAIN_SEPARATOR) {
+            return part.to_owned();
+        }
+        let shown: String = word.chars().take(SHOWN).collect();
+        format!("{shown}... ({count} characters){}", &part[word.len()..])
+    };
+    text.split_inclusive(char::is_whitespace)
+        .map(shorten)
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,6 +122,20 @@ mod tests {
             assert!(check_file(name).is_ok(), "{name:?}");
         }
         assert_eq!(file_stem("a/b:\u{7}c"), "a_b__c");
+    }
+
+    #[test]
+    fn long_words_are_cut() {
+        let long = "x".repeat(300);
+        let (cut, path) = ("x".repeat(60), format!("{MAIN_SEPARATOR}{long}"));
+        let told = shortened(&format!(
+            "error: eta = '{long}': must be a number\n\n{path}"
+        ));
+        let right = format!(
+            "error: eta = '{}... (301 characters)': must be a number\n\n{path}",
+            &cut[1..]
+        );
+        assert_eq!(told, right);
     }
 
     #[test]
