@@ -63,7 +63,7 @@ figures! {
     DrivePower "drive_power", Power, Most, false, "mean power of the drive";
     MaxPosition "max_position", Length, Most, false, "largest position X_m";
     Stroke "stroke", Length, Most, false, "largest less smallest position";
-    StopForce "stop_force", Force, Most, false, "peak force of contact";
+    StopForce "stop_force", Force, Most, false, "peak contact force while a stop is touched";
     StopDeflection "stop_deflection", Length, Most, false, "largest deflection of a stop";
     CutThrough "cut_through", Length, Least, false, "depth of X_m beyond the end of the strip";
     RigidGap "rigid_gap", Length, Least, false, "distance from X_m to the rigid stop behind";

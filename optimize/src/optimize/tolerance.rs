@@ -125,8 +125,11 @@ pub(super) fn deviations(
 ) -> Result<f64, Failure> {
     let (is_normal, violating) = (problem.has_normal_tolerances(), problem.violating);
     if !is_normal && require.contains_key(SHARE) {
+        let boxes = problem.tolerances.iter();
+        let boxes = boxes.map(|it| format!("tolerance.{}", problem.machine.name(it.parameter)));
         return Err(Failure::usage(format!(
-            "require.{SHARE}: plays no part without a normal tolerance; within boxes all machines are as required"
+            "require.{SHARE}: plays no part without a normal tolerance; within boxes ({}) all machines are as required",
+            boxes.collect::<Vec<_>>().join(", ")
         )));
     }
     if is_normal && wilson_interval(0, samples)[1] > violating {

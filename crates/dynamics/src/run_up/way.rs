@@ -16,7 +16,7 @@ pub enum Way {
     FrequencyRaised,
     /// The frequency falls slowly from well above.
     FrequencyLowered,
-    /// The clearance is opened slowly from a small one.
+    /// The clearance is opened slowly from a small one; no way where it is 0 or below.
     ClearanceOpened,
     /// The amplitude of the drive rises slowly from next to nothing.
     AmplitudeRaised,
