@@ -1,10 +1,11 @@
 //! Periodic motions that all but graze their stop, where the stroboscopic map has a square root.
 
 use nalgebra::Vector2;
-use softstop::{Ratios, Scene, Stop};
-use softstop_dynamics::orbit::{OrbitError, find_fixed_point};
+use softstop::{Ratios, Release, Scene, Stop};
+use softstop_dynamics::orbit::{OrbitError, find, find_fixed_point};
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{Orbit, StroboscopicMap};
+use softstop_testing::scenes::kelvin_voigt;
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
 use softstop_testing::{assert_near, is_near, loaded};
 
@@ -126,5 +127,32 @@ fn from_impact_to_impact_strong_motions_are_the_same() {
         );
         assert_near(again.damping_integral, orbit.damping_integral, MOTION);
         assert_near(again.max_position, orbit.max_position, 10.0 * MOTION);
+    }
+}
+
+/// A free mass that touches a soft stop is pushed away in each period, whatever the scales: no motion repeats. On a suspension
+/// the touch is one as soon as it is more than rounding.
+#[test]
+fn a_touch_that_nothing_balances_is_no_motion() {
+    let refused = |scene: &Scene| matches!(find(scene), Err(OrbitError::NotFound { .. }));
+    for (mass, length, frequency) in [
+        (9.0, 0.6, 1.52),
+        (1.0, 0.6, 1.1),
+        (1e-3, 2e-5, 900.0),
+        (3e4, 40.0, 0.02),
+    ] {
+        let mut scene = beside(false, 0.0);
+        (scene.mass, scene.stiffness, scene.damping) = (mass, 0.0, 0.0);
+        (scene.clearance, scene.excitation.frequency) = (length, frequency);
+        scene.excitation.amplitude = 0.144 * length * mass * frequency.powi(2);
+        let stiffness = 6.0 * mass * frequency.powi(2);
+        scene.contact_damping = 0.063 * mass * frequency;
+        scene.stop = kelvin_voigt(stiffness, Release::Clearance);
+        assert!(refused(&scene), "{mass} kg");
+        scene.stiffness = 0.1 * mass * frequency.powi(2);
+        scene.damping = 0.02 * mass * frequency;
+        let reach = 0.144 * length / f64::hypot(0.9, 0.02);
+        scene.clearance = reach * (1.0 - 1e-9);
+        assert!(!refused(&scene), "{mass} kg on a suspension");
     }
 }

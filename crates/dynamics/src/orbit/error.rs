@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use thiserror::Error;
 
 use crate::monitor::Monitor;
-use softstop::{MotionError, Parameter, SceneError};
+use softstop::{MotionError, Parameter, Scene, SceneError};
 
 /// Why a periodic orbit could not be found or followed.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -50,6 +50,14 @@ pub enum OrbitError {
 impl OrbitError {
     /// Newton's method led nowhere, or away.
     pub(crate) const LOST: Self = Self::Diverged { residual: f64::NAN };
+
+    /// There is no stable z = 1 motion of this scene.
+    pub(crate) fn not_found(scene: &Scene) -> Self {
+        Self::NotFound {
+            frequency: scene.excitation.frequency,
+            clearance: scene.clearance,
+        }
+    }
 
     /// [`OrbitError::Stopped`] if a monitor wants to stop.
     pub(crate) fn ask_monitor(monitor: Monitor<'_>) -> Result<(), Self> {

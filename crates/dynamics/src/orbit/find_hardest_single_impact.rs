@@ -1,13 +1,16 @@
-//! The stable z = 1 motion of a scene, searched from scratch: from many starts, and from a lattice of impacts.
+//! The stable z = 1 motion of a scene with the highest before-impact velocity, searched from scratch: from many starts, and from a lattice of impacts.
 
 use std::slice::from_ref;
 
 use super::all_single_impact_orbits::single_impact_orbits;
 use super::fixed_point_search::FixedPointSearch;
+use super::orbit_of_segments::flight_factor;
 use super::trial_motions::TrialMotions;
 use super::{Orbit, OrbitError};
 use crate::monitor::{Monitor, unmonitored};
+use crate::tolerance::TEST_ROUNDING;
 use softstop::Scene;
+use softstop::internals::PhaseId;
 use softstop_lanes::LoweredMachine;
 
 /// Stages of the search: drive periods after which Newton's method takes over from where motions have moved least, and
@@ -46,9 +49,9 @@ pub(crate) fn find_with_known_orbits(
     };
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
-        (Ok(settled), Some(other)) if other.is_harder(&settled) => Ok(other),
-        (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
-        (settled, _) => settled,
+        (Ok(settled), Some(other)) if other.is_harder(&settled) => other.resolved(),
+        (Err(OrbitError::NotFound { .. }), Some(other)) => other.resolved(),
+        (settled, _) => settled?.resolved(),
     }
 }
 
@@ -67,11 +70,8 @@ fn search_hardest_of_scenes(
     groups: usize,
     monitor: Monitor<'_>,
 ) -> Vec<Result<Orbit, OrbitError>> {
-    let none = |scene: &Scene| OrbitError::NotFound {
-        frequency: scene.excitation.frequency,
-        clearance: scene.clearance,
-    };
-    let mut found: Vec<_> = scenes.iter().map(|scene| Err(none(scene))).collect();
+    let none = |scene| Err(OrbitError::not_found(scene));
+    let mut found: Vec<_> = scenes.iter().map(none).collect();
     let (mut machines, mut searches) = (Vec::new(), Vec::new());
     for (index, scene) in scenes.iter().enumerate() {
         match scene.check() {
@@ -112,4 +112,24 @@ fn search_hardest_of_scenes(
         }
     }
     found
+}
+
+impl Orbit {
+    /// The orbit, if its contact is more than rounding or something else brings the mass back.
+    ///
+    /// A free mass that its suspension does not bring back, to rounding, seems to return to its state where it just touches the
+    /// stop, while nothing balances the push of the stop. To first order the depth of a contact is the square of the before-impact
+    /// velocity, in the scene's scales; one no deeper than the error of the state may be none.
+    ///
+    /// # Errors
+    /// [`OrbitError::NotFound`].
+    pub(crate) fn resolved(self) -> Result<Self, OrbitError> {
+        let depth = (self.before_impact_velocity() / self.scene.scales().speed()).powi(2);
+        let flow = self.scene.phases()[PhaseId::FREE].flow;
+        let free = flight_factor(&flow, self.scene.period());
+        match free.fold_test().abs() > TEST_ROUNDING || depth > self.state_error() {
+            true => Ok(self),
+            false => Err(OrbitError::not_found(&self.scene)),
+        }
+    }
 }

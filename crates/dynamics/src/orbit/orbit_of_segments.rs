@@ -141,7 +141,7 @@ impl MultiSegmentShooting {
 }
 
 /// The factor of a monodromy matrix by a free flight over a time in s.
-fn flight_factor(flow: &LinearLaw, elapsed: f64) -> Monodromy {
+pub(super) fn flight_factor(flow: &LinearLaw, elapsed: f64) -> Monodromy {
     let determinant = (-flow.damping() * elapsed).exp();
     Monodromy::with_determinant(flow.transition(elapsed), determinant)
 }

@@ -38,7 +38,9 @@ pub fn find_among(
     monitor: Monitor<'_>,
 ) -> Result<Orbit, OrbitError> {
     let here = orbit::find_with_monitor(scene, monitor);
-    let on = stable_ranges.iter().filter_map(|one| one.orbit_at(scene));
+    let on = stable_ranges
+        .iter()
+        .filter_map(|one| one.orbit_at(scene)?.resolved().ok());
     match (here, on.max_by(Orbit::compare_velocity)) {
         (Ok(here), Some(other)) if other.is_harder(&here) => Ok(other),
         (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
