@@ -190,7 +190,7 @@ fn drive_frame_and_contacts() {
             set("force", 0.4);
             set("base.acceleration", 0.3);
             set("drive.speed", 1.15);
-            assert_eq!(unit.slope("force", 1, 0.02), OK);
+            assert_eq!(unit.slope("force", 1, 0.4 * ramp), OK);
             assert_eq!(unit.slope("drive.speed", 1, ramp), OK);
             if time > 0.0 {
                 assert_eq!(unit.step(0.0, time), OK);

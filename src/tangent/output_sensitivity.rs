@@ -169,8 +169,9 @@ impl Observer for SensitivityRecorder<'_> {
         let (way, unworked) = arc.course.displacement_variation(span, by, &worked);
         self.way += way;
         self.found.work -= unworked;
+        let end_rate = self.end_rate.take();
         if arc.kind != PhaseKind::Free && span.0 < elapsed {
-            self.look_for_peak(arc, span, by);
+            self.look_for_peak(arc, span, by, end_rate.is_some());
         }
         (self.position, self.velocity) = arc.course.state_variation(elapsed, by);
         // Unless a crossing follows, the next arc goes on with this one.
@@ -215,12 +216,17 @@ impl Observer for SensitivityRecorder<'_> {
 }
 
 impl SensitivityRecorder<'_> {
-    /// The change of the contact force where it is largest on an arc, if it is larger there than before: at an end of the
-    /// arc it comes with that.
-    fn look_for_peak(&mut self, arc: &Arc<'_>, (from, to): (f64, f64), by: Variation) {
+    /// The change of the contact force where it is largest on an arc, if it is larger there than before, or goes on from
+    /// the end of the last arc: at an end of the arc it comes with that.
+    fn look_for_peak(
+        &mut self,
+        arc: &Arc<'_>,
+        (from, to): (f64, f64),
+        by: Variation,
+        was_at_end: bool,
+    ) {
         let (mut time, peak) = contact_peak(self.scene, arc, (from, to));
-        let goes_on = time == from && self.end_rate.is_some();
-        self.end_rate = None;
+        let goes_on = time == from && was_at_end;
         if peak <= self.peak * if goes_on { 1.0 - ROUNDING } else { 1.0 } {
             return;
         }
