@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 /// Share of an interval that each step of the golden section keeps: (sqrt(5) - 1) / 2.
 const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
-/// Steps between samples of a function in a period of its fastest oscillation.
+/// Samples in each period of the fastest oscillation, between which the largest value is searched.
 const SAMPLES_PER_OSCILLATION: f64 = 24.0;
 
 /// Where a function that oscillates no faster than with `rate` in rad/s is largest between two times, and how large.

@@ -179,7 +179,9 @@ impl Machine {
         }
         Allowed::Finite.check(keys::POSITION, self.start.position)?;
         Allowed::Finite.check(keys::VELOCITY, self.start.velocity)?;
-        self.scene.validate().map_err(|error| self.own_error(error))
+        self.scene
+            .validate()
+            .map_err(|error| self.scene_error_in_own_units(error))
     }
 
     /// Checks the machine as [`Machine::validate`]; its scene takes the phases of one that is known where only the drive
@@ -214,7 +216,7 @@ impl Machine {
     }
 
     /// The error of a scene with its numbers in the units of this machine.
-    fn own_error(&self, error: SceneError) -> SceneError {
+    fn scene_error_in_own_units(&self, error: SceneError) -> SceneError {
         match error {
             SceneError::TimeScales {
                 name,

@@ -124,9 +124,9 @@ impl Trajectory {
         }
     }
 
-    /// The arcs as observers see them, and how long each lasts, in s.
+    /// Each kept arc as the [`Arc`] that an observer is handed, and how long it lasts, in s; none is clipped or joined.
     #[doc(hidden)]
-    pub fn observed_arcs(&self) -> impl Iterator<Item = (Arc<'_>, f64)> {
+    pub fn arc_views(&self) -> impl Iterator<Item = (Arc<'_>, f64)> {
         let seen = |kept| (self.observed_arc(kept), kept.duration);
         self.arcs.iter().map(seen)
     }

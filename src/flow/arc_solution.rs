@@ -47,7 +47,7 @@ impl Form {
             _ if !departure.forcing.is_linear() => {
                 Self::TaylorStep(Arc::new(TaylorStep::of_linear_law(flow, departure, 0.0)))
             }
-            Some(steady) if closed_form_is_accurate(flow, departure) => {
+            Some(steady) if particular_solution_is_accurate(flow, departure) => {
                 let particular = ParticularSolution::new(flow, departure, steady);
                 let (x, v) = particular.state_at(0.0, departure.drive);
                 let deviation = Vector2::new(departure.position - x, departure.velocity - v);
@@ -310,8 +310,9 @@ fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
     (centre - radius - slack, centre + radius + slack)
 }
 
-/// True if the closed form about the static deflection keeps its digits: that deflection does not dwarf the motion.
-fn closed_form_is_accurate(flow: &LinearLaw, from: &Departure) -> bool {
+/// True if the motion about the particular solution keeps its digits: the static deflection does not dwarf it. Else an arc takes
+/// responses from rest.
+fn particular_solution_is_accurate(flow: &LinearLaw, from: &Departure) -> bool {
     let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
     let stiff = w * w <= MAX_DIGIT_LOSS * b;
     let (constant, ramp) = (from.forcing.value(), from.forcing.rate());

@@ -9,8 +9,8 @@ const ROW_LENGTH: usize = 4;
 /// Length of a column of factors, a row of zeros included.
 const COLUMN_LENGTH: usize = DEGREE + ROW_LENGTH;
 
-/// A pair of numbers for each of N pairs of products.
-type Pairs<const N: usize> = [[f64; 2]; N];
+/// For each of N pairs of products: one coefficient of the first and the same of the second.
+type PairedCoefficients<const N: usize> = [[f64; 2]; N];
 
 /// N pairs of products of power series, their coefficients computed in order.
 pub(super) struct Products<const N: usize> {
@@ -32,7 +32,12 @@ impl<const N: usize> Products<N> {
 
     /// The k-th coefficients of the paired products, by the k-th of their factors. To be called for k = 0, 1, ... in order.
     #[inline(always)]
-    pub fn next_terms(&mut self, k: usize, left: Pairs<N>, right: Pairs<N>) -> Pairs<N> {
+    pub fn next_terms(
+        &mut self,
+        k: usize,
+        left: PairedCoefficients<N>,
+        right: PairedCoefficients<N>,
+    ) -> PairedCoefficients<N> {
         let (left, right) = (left.map(side_by_side), right.map(side_by_side));
         if k == 0 {
             self.first = [left, right];
@@ -67,7 +72,7 @@ impl<const N: usize> Products<N> {
 
     /// Replaces the k-th coefficients of the right factors, for the orders above k.
     #[inline(always)]
-    pub fn replace_right(&mut self, k: usize, right: Pairs<N>) {
+    pub fn replace_right(&mut self, k: usize, right: PairedCoefficients<N>) {
         let place = match k {
             0 => &mut self.first[1],
             _ => &mut self.right[COLUMN_LENGTH - k],

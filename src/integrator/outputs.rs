@@ -104,7 +104,7 @@ impl Simulation {
         self.tallies.counts.last_impact.map(impact).or(self.earlier)
     }
 
-    /// Energies since the start.
+    /// Mechanical energy now; energies supplied and dissipated, impacts on rigid stops among it, since the start, in J.
     pub fn energy(&self) -> Energy {
         let mut work = self.tallies.counts.work;
         work += self.tallies.work_under_way(&self.motion);

@@ -182,8 +182,10 @@ impl ResetContext<'_> {
         let held = self.phases.mode_from_rest(hold, position, forcing);
         let rests = matches!(held, Mode::Held(_));
         let faint = || {
-            let endless =
-                restitution > MAX_RESTITUTION && self.phases.is_faint(at, speed, forcing, self.fed);
+            let endless = restitution > MAX_RESTITUTION
+                && self
+                    .phases
+                    .is_unresolved_bounce(at, speed, forcing, self.fed);
             speed < self.threshold.slowest || endless
         };
         if speed == 0.0 || (rests && faint()) {

@@ -131,7 +131,7 @@ impl Machine {
     fn known_parameter(&self, key: &str) -> Result<Parameter, MachineError> {
         self.parameter(key).map_err(|error| match error {
             MachineError::Ratio(..) => error,
-            _ => self.unknown_key(key, self.file_keys()),
+            _ => self.key_error(key, self.file_keys()),
         })
     }
 

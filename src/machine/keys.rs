@@ -168,7 +168,7 @@ impl Machine {
             .find(|parameter| otherwise == Some(*parameter) || named(parameter))
             .or_else(|| self.parameters().find(called));
         match found {
-            None => Err(self.unknown_key(&name, self.parameter_names())),
+            None => Err(self.key_error(&name, self.parameter_names())),
             Some(found) if self.unit_system != UnitSystem::Ratios && is_ratio(&name, found) => {
                 Err(MachineError::Ratio(name, self.name(found)))
             }
@@ -187,7 +187,7 @@ impl Machine {
         let otherwise = other_statement_of(&key).is_some();
         match (parameter, self.unit_system) {
             (Parameter::Preload, _) if otherwise != self.preload_deflection.is_some() => {
-                Err(self.unknown_key(&key, self.parameter_names()))
+                Err(self.key_error(&key, self.parameter_names()))
             }
             (Parameter::Frequency, UnitSystem::Hertz) if !otherwise => Ok((parameter, 1.0 / TAU)),
             (Parameter::Frequency, UnitSystem::Si) if otherwise => Ok((parameter, TAU)),

@@ -74,8 +74,9 @@ fn edit_distance(a: &str, b: &str) -> usize {
 }
 
 impl Machine {
-    /// The error that this machine does not have a key, with those that it `has`.
-    pub(super) fn unknown_key(&self, key: &str, has: Vec<&'static str>) -> MachineError {
+    /// The error that this machine does not have a key, with those that it `has`: [`MachineError::Lacks`] for a key of other
+    /// machines, else [`MachineError::UnknownKey`] with the key that may be meant.
+    pub(super) fn key_error(&self, key: &str, has: Vec<&'static str>) -> MachineError {
         let is_parameter = Parameter::ALL.iter().any(|it| it.is_called(key));
         let exists = is_parameter || other_keys().any(|it| it == key);
         if exists {

@@ -82,7 +82,7 @@ impl Machine {
             }
         };
         if let Some(place) = places.iter().find(is_of_none) {
-            return Err(machine.unknown_key(&place.key, machine.file_keys()));
+            return Err(machine.key_error(&place.key, machine.file_keys()));
         }
         machine.tie_parameters(&ties)?;
         machine.validate().map_err(|source| MachineError::Value {

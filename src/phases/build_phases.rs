@@ -101,8 +101,8 @@ impl PhaseBuilder<'_> {
         id
     }
 
-    /// A guard of the plans as one of positions.
-    fn planned_guard(&self, planned: Guard) -> Guard {
+    /// A guard of the plan of a layer, mirrored where the layer belongs to the stop below.
+    fn guard_on_side(&self, planned: Guard) -> Guard {
         if self.side < 0.0 {
             planned.mirrored()
         } else {
@@ -111,7 +111,7 @@ impl PhaseBuilder<'_> {
     }
 
     fn add_exit(&mut self, phase: PhaseId, guard: Guard, exit: Exit) {
-        let guard = self.planned_guard(guard);
+        let guard = self.guard_on_side(guard);
         let phase = &mut self.phases[phase.index()];
         Arc::make_mut(&mut phase.guards).push(guard);
         Arc::make_mut(&mut phase.exits).push(exit);
@@ -177,7 +177,7 @@ impl PhaseBuilder<'_> {
             self.add_exit(released, falling, Exit::Backward(surface));
             self.add_exit(released, pulls.negated(), Exit::Switch(inward));
             self.add_exit(inward, pulls, Exit::Switch(released));
-            self.phases[inward.index()].released = Some((released, self.planned_guard(pulls)));
+            self.phases[inward.index()].released = Some((released, self.guard_on_side(pulls)));
         }
         Layer {
             from: self.side * plan.from,

@@ -193,7 +193,7 @@ impl Phases {
         let faint = || {
             velocity.abs() < slowest
                 || self.bounce_height(at, beyond, velocity, forcing) < height * at.position.abs()
-                || self.is_faint(at, velocity, forcing, fed)
+                || self.is_unresolved_bounce(at, velocity, forcing, fed)
         };
         if velocity == 0.0 || (rests && faint()) {
             held
@@ -247,15 +247,21 @@ impl Phases {
         forward.into_iter().chain(backward).collect()
     }
 
-    /// True if a bounce cannot be told from none: lower than four units in the last place of the position, or as slow
+    /// True if a bounce that leaves a surface with a velocity in m/s cannot be told from none: lower than four units in the last place of the position, or as slow
     /// as what the force brings about within the resolution of time.
-    pub(crate) fn is_faint(&self, at: &Surface, velocity: f64, forcing: f64, fed: bool) -> bool {
+    pub(crate) fn is_unresolved_bounce(
+        &self,
+        at: &Surface,
+        leaving_velocity: f64,
+        forcing: f64,
+        fed: bool,
+    ) -> bool {
         let beyond = self.beyond(at, fed);
-        let height = self.bounce_height(at, beyond, velocity, forcing);
+        let height = self.bounce_height(at, beyond, leaving_velocity, forcing);
         let period = std::f64::consts::TAU / self.frequency;
         let resolution = 4.0 * f64::EPSILON * period;
         // A bounce of height h under the acceleration a takes v / a each way.
-        2.0 * height < resolution * velocity.abs()
+        2.0 * height < resolution * leaving_velocity.abs()
             || height < RestThreshold::ROUNDING.height * at.position.abs()
     }
 

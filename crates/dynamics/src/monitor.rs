@@ -1,4 +1,4 @@
-//! Monitors of long work, which watch and stop it, and stores of its finished pieces, by which it is resumed.
+//! Monitors of long work, which watch and stop it.
 
 use std::ops::ControlFlow;
 

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::orbit::{ImpactCount, ImpactPattern, Orbit, Regime};
 
-/// The kind of motion that a start settles on: periodic with its regime, at rest, chaotic, unsettled or lost.
+/// The kind of motion that a start settles on: periodic with its regime, periodic with chatter, at rest, chaotic,
+/// transiently chaotic, unsettled, or lost (it cannot be computed).
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionKind {

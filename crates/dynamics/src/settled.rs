@@ -128,7 +128,7 @@ impl Settling {
         monitor: Monitor<'_>,
     ) -> Option<f64> {
         let machine = vec![LoweredMachine::new(&scene.check().ok()?)];
-        let region = region.unwrap_or_else(|| Region::start_box(scene, []));
+        let region = region.unwrap_or_else(|| Region::starting_box_holding(scene, []));
         let starts = region.starts(starts, 0).into_iter();
         let members = starts.map(|start| Member::new(0, start)).collect();
         let seen = self.settle_members(machine, members, monitor)?;

@@ -35,7 +35,7 @@ fn crossings(scene: &CheckedScene, point: &BranchPoint, periods: u64) -> Option<
     let met: Vec<_> = met
         .map(|it| (it.position, 0.5 * it.velocity * it.velocity))
         .collect();
-    let turns = motion.observed_arcs().flat_map(|(arc, elapsed)| {
+    let turns = motion.arc_views().flat_map(|(arc, elapsed)| {
         [true, false]
             .into_iter()
             .flat_map(move |back| turning_points(arc.course, elapsed, back))

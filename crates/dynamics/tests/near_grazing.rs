@@ -35,7 +35,7 @@ fn branch(scene: &Scene, along: Parameter, state: Vector2<f64>, range: (f64, f64
 /// Where in its period the mass is lowest, in s, and its position there.
 fn lowest(scene: &CheckedScene, state: Vector2<f64>) -> (f64, f64) {
     let motion = scene.trajectory(state.into(), 1).expect("a motion");
-    let turns = motion.observed_arcs().flat_map(|(arc, elapsed)| {
+    let turns = motion.arc_views().flat_map(|(arc, elapsed)| {
         let turns = [true, false].map(|back| turning_points(arc.course, elapsed, back));
         turns
             .into_iter()

@@ -225,7 +225,7 @@ fn a_weak_impact_at_a_resonance_ends_in_another_touch() -> Outcome {
     assert_near(last.parameter, range.high.frequency, 1e-13);
     let start = Start::new(last.position, last.velocity);
     let motion = scene.at_frequency(last.parameter).trajectory(start, 1)?;
-    let turns = motion.observed_arcs().flat_map(|(arc, elapsed)| {
+    let turns = motion.arc_views().flat_map(|(arc, elapsed)| {
         turning_points(arc.course, elapsed, arc.course.departure.velocity > 0.0)
     });
     let highest = turns.map(|turn| turn.position).fold(0.0, f64::max);

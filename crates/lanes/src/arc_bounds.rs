@@ -11,7 +11,7 @@ const MAX_RELATIVE_CHANGE: f64 = 0.25;
 
 /// Bounds on the second-order remainder of a deviation from the cycle at a crossing: of state and delay.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct LinearError {
+pub(super) struct CrossingRemainder {
     pub state: Vector2<f64>,
     pub delay: f64,
 }
@@ -36,7 +36,7 @@ impl ArcBounds {
         &self,
         at: &Derivatives,
         ball: &Matrix2<f64>,
-        rest: &LinearError,
+        rest: &CrossingRemainder,
     ) -> Vector2<f64> {
         let rest = at.transition.abs() * (rest.state + self.curve) + at.response.abs() * rest.delay;
         let tangent = at.tangent * ball;
@@ -50,7 +50,7 @@ impl CycleArc {
     pub fn bounds(
         &self,
         ball: &Matrix2<f64>,
-        rest: &LinearError,
+        rest: &CrossingRemainder,
         frequency: f64,
     ) -> Option<ArcBounds> {
         let delay = (self.delay * ball).norm() + rest.delay;
@@ -77,20 +77,20 @@ impl CycleArc {
         Some(passed)
     }
 
-    /// Second-order remainder at the crossing that ends the arc, from that at the crossing `before` the arc and from what the
+    /// Bound on the second-order remainder at the crossing that ends the arc, from that at the crossing `before` the arc and from what the
     /// linear map along the arc leaves out of the state.
-    pub fn linear_error_at_exit(
+    pub fn remainder_at_exit(
         &self,
-        before: &LinearError,
+        before: &CrossingRemainder,
         left_out: &Vector2<f64>,
-    ) -> LinearError {
+    ) -> CrossingRemainder {
         let Derivatives {
             transition,
             response,
             ..
         } = self.at_end;
         let at_end = transition.abs() * before.state + response.abs() * before.delay + left_out;
-        LinearError {
+        CrossingRemainder {
             state: self.reset.abs() * at_end,
             delay: before.delay + self.gradient.abs().dot(&at_end.transpose()),
         }

@@ -19,8 +19,8 @@ pub(super) struct ReleaseSearch<S: Simd, const N: usize> {
     pub sigma: Lanes<S, N>,
 }
 
-/// What the sizes of its terms prove of a series on [0, sigma]: its sign, slope and curvature.
-struct TermBounds<S: Simd, const N: usize> {
+/// Value of a series at sigma, and whether the sizes of its terms prove that it stays positive, falls, is concave on [0, sigma].
+struct SeriesProof<S: Simd, const N: usize> {
     /// Value at sigma.
     end: Lanes<S, N>,
     stays_positive: Mask<S, N>,
@@ -50,7 +50,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
             *term = touches.choose(next, *term);
         }
         for _ in 0..=MAX_HALVINGS {
-            let bounds = term_bounds(&series, release.sigma);
+            let bounds = prove_by_terms(&series, release.sigma);
             let single = bounds.falls | (bounds.is_concave & zero.below(series[0]));
             let leaves = open & single & bounds.end.at_most(zero);
             let stays = open & (bounds.stays_positive | (single & zero.below(bounds.end)));
@@ -102,12 +102,12 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
     }
 }
 
-/// Bounds a series on [0, sigma] by the sizes of its terms.
+/// What the sizes of its terms prove of a series on [0, sigma].
 #[inline(always)]
-fn term_bounds<S: Simd, const N: usize>(
+fn prove_by_terms<S: Simd, const N: usize>(
     series: &Terms<S, N>,
     sigma: Lanes<S, N>,
-) -> TermBounds<S, N> {
+) -> SeriesProof<S, N> {
     let zero = sigma.like(0.0);
     let (mut tail, mut slopes, mut curves) = (zero, zero, zero);
     for k in (2..=DEGREE).rev() {
@@ -123,7 +123,7 @@ fn term_bounds<S: Simd, const N: usize>(
     let square = sigma * sigma;
     let bend = series[2] * square;
     let low = value + first.min(zero);
-    TermBounds {
+    SeriesProof {
         end: value_and_rate(series, sigma).0,
         stays_positive: tail.mul_add(square, rounding).below(low),
         falls: slopes.mul_add(square, first + rounding).below(zero),

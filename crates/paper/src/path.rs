@@ -41,7 +41,7 @@ impl Path {
             impacts: trajectory.timed_impacts().map(|it| it.0).collect(),
             ..Self::default()
         };
-        for (arc, elapsed) in trajectory.observed_arcs() {
+        for (arc, elapsed) in trajectory.arc_views() {
             let lost = work(&arc, scene.mass, elapsed).dissipated;
             path.dissipated += lost;
             if arc.kind != PhaseKind::Free {

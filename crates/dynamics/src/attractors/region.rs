@@ -53,7 +53,10 @@ impl Region {
 
     /// The box about the origin from which commands take starts: twice the length of [`Scene::motion_scales`] both ways, or wider
     /// to hold some states.
-    pub(crate) fn start_box(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
+    pub(crate) fn starting_box_holding(
+        scene: &Scene,
+        states: impl IntoIterator<Item = Start>,
+    ) -> Self {
         let Scales { length, rate } = scene.motion_scales();
         let (length, room) = (2.0 * length, 1.0 + REGION_MARGIN);
         let half = states
@@ -72,11 +75,13 @@ impl Region {
         .clipped_at_stops(scene)
     }
 
-    /// The region itself if it holds some states, else its union with the [`Region::start_box`] of these.
+    /// The region itself if it holds some states, else its union with the [`Region::starting_box_holding`] of these.
     pub(crate) fn widened_to_hold(&self, scene: &Scene, states: &[Start]) -> Self {
         match states.iter().all(|state| self.contains(state)) {
             true => *self,
-            false => self.smallest_union(&Self::start_box(scene, states.iter().copied())),
+            false => {
+                self.smallest_union(&Self::starting_box_holding(scene, states.iter().copied()))
+            }
         }
     }
 

@@ -15,7 +15,7 @@ use softstop::{Scene, Start};
 /// # Errors
 /// As [`find_attractors`](super::find_attractors).
 pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, OrbitError> {
-    Ok(Region::start_box(
+    Ok(Region::starting_box_holding(
         scene,
         states_for_starting_box(scene, monitor)?,
     ))

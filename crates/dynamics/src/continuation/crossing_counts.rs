@@ -131,8 +131,9 @@ impl<'a> CountedCrossings<'a> {
         touches.min_by(|a, b| a.amount.total_cmp(&b.amount))
     }
 
-    /// Counts the crossings of the motion: how often it crosses what.
-    pub fn counts(&self, scene: &Scene) -> CrossingCounts {
+    /// Counts impacts, crossings of each surface, reversals, rests and holds of the motion; `scene` tells at which surfaces the
+    /// force does not jump.
+    pub fn count_by_kind(&self, scene: &Scene) -> CrossingCounts {
         let held = self.trajectory.arcs.iter().map(|arc| arc.course.is_held());
         let before = std::iter::once(false).chain(held.clone());
         let mut counts = CrossingCounts {

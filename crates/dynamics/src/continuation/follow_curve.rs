@@ -71,7 +71,7 @@ fn follow_half_curve<E: SpecialPointEquations>(
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
-        if let Some((kind, point)) = equations.ending_point(&last, &ahead) {
+        if let Some((kind, point)) = equations.resonant_grazing_within_step(&last, &ahead) {
             let _ = watch(&point);
             points.push(point.clone());
             specials.push((kind, point));

@@ -209,7 +209,7 @@ fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearGrazing> {
     let surfaces = SwitchingSurface::ALL.into_iter();
     let surfaces = surfaces.filter_map(|surface| Some((surface, surface.surface_position(scene)?)));
     let surfaces: Vec<(SwitchingSurface, f64)> = surfaces.collect();
-    let on_arcs = motion.observed_arcs().flat_map(|(arc, elapsed)| {
+    let on_arcs = motion.arc_views().flat_map(|(arc, elapsed)| {
         let back = arc.course.departure.velocity > 0.0;
         let turns = turning_points(arc.course, elapsed, back);
         turns.map(move |turn| (turn.back, arc.begin() + turn.elapsed, turn.position, false))

@@ -208,8 +208,9 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
         (side * end - start).component_div(&scales)
     }
 
-    /// The touch of a grazing orbit, as of a crossing that dies.
-    pub fn graze_at(&self, node: &CurveNode<ImpactSectionOrbit>) -> GrazingTouch {
+    /// The grazing touch of the orbit at a node: drive angle, surface, numbers of impacts and crossings. Its crossing is taken for
+    /// one that dies beyond the grazing.
+    pub fn grazing_touch_at(&self, node: &CurveNode<ImpactSectionOrbit>) -> GrazingTouch {
         GrazingTouch {
             angle: node.at[0],
             impacts: node.here.point.impacts.len(),
@@ -318,8 +319,8 @@ fn entry_jump(motion: &Trajectory, scene: &Scene, begin: Vector2<f64>) -> Option
         return None;
     }
     let acceleration = |phase: &Phase| phase.acceleration(begin.x, begin.y, 0.0, scene.mass);
-    let first = motion.observed_arcs().find_map(|(arc, _)| arc.phase)?;
-    let last = motion.observed_arcs().last()?.0.phase?;
+    let first = motion.arc_views().find_map(|(arc, _)| arc.phase)?;
+    let last = motion.arc_views().last()?.0.phase?;
     let jump = acceleration(first) - acceleration(last);
     Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
 }

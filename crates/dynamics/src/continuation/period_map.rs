@@ -61,7 +61,7 @@ impl PeriodMap {
         let change = |(arc, elapsed): (Arc<'_>, f64)| {
             sensitivity.at_drive_angle((&arc, elapsed), trajectory.end, time)
         };
-        let by_frequency = by_frequency.then(|| change(trajectory.observed_arcs().last()?));
+        let by_frequency = by_frequency.then(|| change(trajectory.arc_views().last()?));
         let (lowest, highest) = scene.reach();
         let at_wall = start.x == lowest || start.x == highest;
         let margin = crossing_margin(&trajectory, periods);
@@ -76,7 +76,7 @@ impl PeriodMap {
             },
             by_frequency: by_frequency.flatten(),
             impacts: crossings.impact_velocities().collect(),
-            counts: crossings.counts(&scene),
+            counts: crossings.count_by_kind(&scene),
             slowest: crossings.slowest_crossing(),
             margin,
             trajectory: trajectory.into(),

@@ -77,8 +77,8 @@ pub(super) trait SpecialPointEquations: Equations {
         (CodimensionTwo::GeneralisedFlip, value)
     }
 
-    /// The point of codimension two in which the curve ends within a step from a node, if it does.
-    fn ending_point(
+    /// The resonant grazing in which a curve of grazings ends within a step from a node, if it does.
+    fn resonant_grazing_within_step(
         &self,
         node: &CurveNode<Self::Point>,
         step: &DVector<f64>,
@@ -147,11 +147,11 @@ impl SpecialPointEquations for ImpactSectionSystem<'_, 2> {
         let scene = self.scene_at(0.0, self.parameters(&node.at));
         let is_hard = scene.is_ok_and(|(scene, _)| self.surface.has_square_root(&scene));
         let value = node.here.point.response;
-        let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
+        let kind = CodimensionTwo::ResonantGrazing(self.grazing_touch_at(node));
         Some((kind, if is_hard { value } else { 0.0 }))
     }
 
-    fn ending_point(
+    fn resonant_grazing_within_step(
         &self,
         node: &CurveNode<ImpactSectionOrbit>,
         step: &DVector<f64>,
@@ -165,7 +165,7 @@ impl SpecialPointEquations for ImpactSectionSystem<'_, 2> {
             self.resonant_grazing_system(&(&node.at - step * (velocity / change)));
         let found = correct(&resonant, &guess, None).ok()?;
         let is_near = (&found.at - node.at.clone().remove_row(1)).norm() <= step.norm();
-        let kind = CodimensionTwo::ResonantGrazing(resonant.graze_at(&found));
+        let kind = CodimensionTwo::ResonantGrazing(resonant.grazing_touch_at(&found));
         let point = is_near.then(|| resonant.curve_point(&found).ok());
         Some((kind, point.flatten()?))
     }

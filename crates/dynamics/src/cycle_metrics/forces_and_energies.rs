@@ -36,7 +36,7 @@ pub fn peak_contact_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64
 
 /// Largest contact force in N of a motion in phases of these kinds; 0 if it is pressed in none.
 pub(super) fn largest_contact_force_in(motion: &Trajectory, kinds: &[PhaseKind]) -> f64 {
-    let arcs = motion.observed_arcs();
+    let arcs = motion.arc_views();
     let arcs = arcs.filter(|(arc, _)| kinds.contains(&arc.kind));
     let peaks = arcs.map(|(arc, elapsed)| peak_contact_force(&motion.scene, (&arc, elapsed)));
     peaks.fold(0.0, f64::max)
@@ -59,7 +59,7 @@ pub(crate) fn peak_stop_force(motion: &Trajectory) -> f64 {
 /// Peak power of the drive in W over a motion.
 pub(super) fn peak_drive_power(motion: &Trajectory) -> f64 {
     let scene = &motion.scene;
-    let peaks = motion.observed_arcs().map(|(arc, elapsed)| {
+    let peaks = motion.arc_views().map(|(arc, elapsed)| {
         peak_on_arc(scene, (&arc, elapsed), |elapsed| {
             drive_force(scene, &arc, elapsed) * arc.at(elapsed).velocity
         })

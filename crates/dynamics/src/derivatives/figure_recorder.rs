@@ -45,15 +45,17 @@ impl<'a> FigureRecorder<'a> {
         }
     }
 
-    /// A figure with its derivatives, and how the drive's frequency changes it where the drive angle is held.
-    fn differentiated_figure(
+    /// A figure with its derivatives: `by` has those at held drive angle, by position, velocity and each parameter; to those of
+    /// parameters that change the drive's frequency the share of the frequency is added, `by_log_frequency` its derivative by
+    /// the logarithm of that.
+    fn add_frequency_change(
         &self,
         value: f64,
         mut by: Vec<f64>,
-        with_time: f64,
+        by_log_frequency: f64,
     ) -> DifferentiatedFigure {
         for (part, by) in by.iter_mut().skip(2).zip(self.by) {
-            *part += by.frequency * with_time;
+            *part += by.frequency * by_log_frequency;
         }
         DifferentiatedFigure { value, by }
     }
@@ -179,10 +181,10 @@ impl Observer for FigureRecorder<'_> {
         };
         if crossing.kind.is_impact() {
             let time = self.clock.time(crossing.instant);
-            let times = self.differentiated_figure(time, delays.clone(), -time);
+            let times = self.add_frequency_change(time, delays.clone(), -time);
             let side = 1f64.copysign(v);
             let change = |column: &Vector3<f64>, delay| side * (column.y + a * delay);
-            let velocities = self.differentiated_figure(v.abs(), each(&change), v.abs());
+            let velocities = self.add_frequency_change(v.abs(), each(&change), v.abs());
             self.watched.impacts.push([times, velocities]);
         }
         let turns = match crossing.kind {

@@ -54,7 +54,7 @@ pub(crate) fn single_impact_orbits_near_impact(
 ) -> Vec<Orbit> {
     SingleImpactSearch::new(scene).map_or(Vec::new(), |mut singles| {
         singles
-            .search_from_impact(impact, &unmonitored)
+            .collect_from_guess(impact, &unmonitored)
             .unwrap_or_default();
         singles.found
     })
@@ -71,7 +71,7 @@ fn search_whole_lattice(
     };
     let lattice = (singles.period, &lattice_speeds(scene)[..]);
     for guess in guess_impacts_from_lattice(&singles.shooting, lattice, monitor)? {
-        singles.search_from_impact(guess, monitor)?;
+        singles.collect_from_guess(guess, monitor)?;
     }
     singles.found.sort_by(Orbit::compare_velocity);
     Ok(Some(singles))
@@ -101,8 +101,9 @@ impl SingleImpactSearch {
         })
     }
 
-    /// Follows Newton's method from a guessed impact, and to others beside the orbit that it leads to.
-    fn search_from_impact(
+    /// Keeps the orbit that Newton's method reaches from a guessed impact, then those that it reaches from there with the known
+    /// ones deflated, until none is new; keeps near misses, too.
+    fn collect_from_guess(
         &mut self,
         guess: TimedImpact,
         monitor: Monitor<'_>,

@@ -40,7 +40,7 @@ pub(super) fn guess_impacts(
 /// impact at a clearance 2 d smaller.
 fn nearest_miss(motion: &Trajectory, clearance: f64) -> Option<(f64, TimedImpact)> {
     let free = motion
-        .observed_arcs()
+        .arc_views()
         .filter(|(arc, _)| arc.kind == PhaseKind::Free);
     let misses = free.flat_map(|(arc, elapsed)| {
         let back = turning_points(arc.course, elapsed, true).filter(|turn| turn.back);

@@ -25,8 +25,8 @@ const MAX_RANGE_POINTS: usize = 20_000;
 
 /// Share of a frequency about it within which motions are searched where one at it is nearly z = 1: the spacing of the row.
 const FREE_SHARE: f64 = 0.08;
-/// Shares of a frequency by which motions are searched beyond a border collision, from the impact there.
-const BEYOND_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
+/// Shares of a frequency by which motions are searched on both sides of a border collision, from the impact there.
+const BESIDE_BORDER_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are searched for stable ranges, and most branches that are followed.
 const MAX_BRANCHES: usize = 200;
 
@@ -120,7 +120,9 @@ pub(super) fn find_stable_ranges(
                 for border in border_points(&branch) {
                     frequencies.extend(frequencies_beside(border.parameter));
                     let border = continuation.orbit_at(border);
-                    met.extend(border.map_or(Vec::new(), |border| orbits_beyond(scene, &border)));
+                    met.extend(
+                        border.map_or(Vec::new(), |border| orbits_beside_border(scene, &border)),
+                    );
                 }
                 branches.push(branch);
             }
@@ -191,9 +193,11 @@ fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
 }
 
 /// The z = 1 orbits at frequencies just beside a border collision whose impact is nearly that of the motion there.
-fn orbits_beyond(scene: &CheckedScene, border: &Orbit) -> Vec<Orbit> {
+fn orbits_beside_border(scene: &CheckedScene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
-    let shares = BEYOND_SHARES.into_iter().flat_map(|share| [-share, share]);
+    let shares = BESIDE_BORDER_SHARES
+        .into_iter()
+        .flat_map(|share| [-share, share]);
     let near = |share: f64| {
         let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
         Some(single_impact_orbits_near_impact(

@@ -50,7 +50,7 @@ impl SampledPeriod {
     fn of(orbit: &Orbit) -> Self {
         let scene = &orbit.scene;
         let motion = scene.trajectory(orbit.state().into(), orbit.periods).ok();
-        let arcs = motion.iter().flat_map(|it| it.observed_arcs());
+        let arcs = motion.iter().flat_map(|it| it.arc_views());
         Self {
             length: scene.period() * orbit.periods as f64,
             points: arcs
