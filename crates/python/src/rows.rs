@@ -5,7 +5,7 @@ use std::ops::Range;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use softstop::{Machine as Stated, MotionError, Parameter, Scene, Start};
+use softstop::{CheckedScene, Machine as Stated, MotionError, Parameter, Scene, Start};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -89,7 +89,7 @@ impl<'a> Rows<'a> {
         self.machine(row).scene
     }
 
-    /// Follows the motion of each row over whole drive periods, block by block, each batch of the lanes with an observer that
+    /// Follows the motion of each row over whole drive periods, block by block once all machines are checked, each batch of the lanes with an observer that
     /// `watch` makes for rows counted from this one on.
     ///
     /// # Errors
@@ -99,6 +99,10 @@ impl<'a> Rows<'a> {
         periods: u64,
         watch: impl Fn(usize) -> W + Sync,
     ) -> PyResult<(Vec<Outcome>, Vec<W>)> {
+        if self.len() > BLOCK {
+            let all = self.machines_of(0..self.len());
+            all.try_for_each(|row| self.checked(row).map(drop))?;
+        }
         let progress = Progress::new(self.len() as u64, "motions");
         let (mut outcomes, mut watches) = (Vec::new(), Vec::new());
         for first in (0..self.len()).step_by(BLOCK) {
@@ -124,18 +128,22 @@ impl<'a> Rows<'a> {
 
     /// The machines of a block ready for the lanes; one for all rows where nothing is changed.
     fn lowered(&self, block: Range<usize>) -> PyResult<Vec<LoweredMachine>> {
-        let machines = match self.columns.is_empty() {
-            true => block.start..block.start + 1,
-            false => block,
-        };
-        let lowered = |row| {
-            go_on()?;
-            let checked = self.machine(row).check(None);
-            Ok(LoweredMachine::new(
-                &checked.map_err(|error| of_scene(&error))?,
-            ))
-        };
-        machines.into_par_iter().map(lowered).collect()
+        let machines = self.machines_of(block).map(|row| self.checked(row));
+        machines.map(|it| Ok(LoweredMachine::new(&it?))).collect()
+    }
+
+    /// The rows of a block whose machines differ.
+    fn machines_of(&self, block: Range<usize>) -> rayon::range::Iter<usize> {
+        match self.columns.is_empty() {
+            true => (block.start..block.start + 1).into_par_iter(),
+            false => block.into_par_iter(),
+        }
+    }
+
+    fn checked(&self, row: usize) -> PyResult<CheckedScene> {
+        go_on()?;
+        let checked = self.machine(row).check(None);
+        checked.map_err(|error| of_scene(&error))
     }
 }
 
