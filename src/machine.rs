@@ -215,29 +215,6 @@ impl Machine {
         Ok(())
     }
 
-    /// The error of a scene with its numbers in the units of this machine.
-    fn scene_error_in_own_units(&self, error: SceneError) -> SceneError {
-        match error {
-            SceneError::TimeScales {
-                name,
-                value,
-                bound,
-                limit,
-            } => {
-                let parameter = Parameter::named(name);
-                let dimension =
-                    parameter.map_or(Dimension::Number, |parameter| parameter.about().dimension);
-                SceneError::TimeScales {
-                    name: parameter.map_or(name, |parameter| self.name(parameter)),
-                    value: self.to_own(dimension, value),
-                    bound,
-                    limit: self.to_own(dimension, limit),
-                }
-            }
-            error => error,
-        }
-    }
-
     /// Dimensionless ratios of the machine, if it is stated in ratios and is a machine like the paper's.
     pub fn ratios(&self) -> Option<Ratios> {
         if self.unit_system != UnitSystem::Ratios || self.scene.excitation.phase != 0.0 {

@@ -9,7 +9,7 @@ use super::clock::{Clock, Instant};
 use super::external_force::force_from_derivatives;
 use super::motion::Motion;
 use super::observer::Impact;
-use super::start::Start;
+use super::start::InitialConditions;
 use super::tallies::{Counts, Tallies};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
@@ -30,42 +30,6 @@ pub struct Simulation {
     pub(super) checkpoint: Checkpoint,
     /// The last impact before the clock's time 0.
     pub(super) earlier: Option<Impact>,
-}
-
-/// How a machine begins. A [`Start`] is enough: time 0 s and a fed strip go with it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct InitialConditions {
-    /// The state.
-    pub start: Start,
-    /// Absolute time in s; the drive is F0 cos(w t + phi) in absolute time.
-    pub time: f64,
-    /// Whether a strip is fed: also in the stroke in which the machine begins, if that is beyond the clearance.
-    pub fed: bool,
-}
-
-impl From<Start> for InitialConditions {
-    fn from(start: Start) -> Self {
-        Self {
-            start,
-            time: 0.0,
-            fed: true,
-        }
-    }
-}
-
-impl InitialConditions {
-    /// These options at another absolute time in s.
-    #[must_use]
-    pub const fn at_time(self, time: f64) -> Self {
-        Self { time, ..self }
-    }
-
-    /// These options with a strip or without.
-    #[must_use]
-    pub const fn fed(self, fed: bool) -> Self {
-        Self { fed, ..self }
-    }
 }
 
 impl Simulation {

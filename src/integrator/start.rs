@@ -1,4 +1,4 @@
-//! Where a motion starts.
+//! Where a motion starts, and how a machine begins.
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -46,5 +46,41 @@ impl Start {
             }
         }
         Ok(())
+    }
+}
+
+/// How a machine begins. A [`Start`] is enough: time 0 s and a fed strip go with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct InitialConditions {
+    /// The state.
+    pub start: Start,
+    /// Absolute time in s; the drive is F0 cos(w t + phi) in absolute time.
+    pub time: f64,
+    /// Whether a strip is fed: also in the stroke in which the machine begins, if that is beyond the clearance.
+    pub fed: bool,
+}
+
+impl From<Start> for InitialConditions {
+    fn from(start: Start) -> Self {
+        Self {
+            start,
+            time: 0.0,
+            fed: true,
+        }
+    }
+}
+
+impl InitialConditions {
+    /// These options at another absolute time in s.
+    #[must_use]
+    pub const fn at_time(self, time: f64) -> Self {
+        Self { time, ..self }
+    }
+
+    /// These options with a strip or without.
+    #[must_use]
+    pub const fn fed(self, fed: bool) -> Self {
+        Self { fed, ..self }
     }
 }

@@ -1,6 +1,7 @@
 //! The units in which a machine states its quantities, and the labels of its parameters.
 
 use super::{Machine, UnitSystem};
+use crate::error::SceneError;
 use crate::scene::{Dimension, Parameter};
 
 impl Machine {
@@ -12,6 +13,29 @@ impl Machine {
     /// The value in SI units of a quantity in the machine's own unit.
     pub fn to_si(&self, dimension: Dimension, value: f64) -> f64 {
         value * self.own_unit_in_si(dimension)
+    }
+
+    /// The error of a scene; of time scales too far apart with the numbers in the units of this machine.
+    pub(super) fn scene_error_in_own_units(&self, error: SceneError) -> SceneError {
+        match error {
+            SceneError::TimeScales {
+                name,
+                value,
+                bound,
+                limit,
+            } => {
+                let parameter = Parameter::named(name);
+                let dimension =
+                    parameter.map_or(Dimension::Number, |parameter| parameter.about().dimension);
+                SceneError::TimeScales {
+                    name: parameter.map_or(name, |parameter| self.name(parameter)),
+                    value: self.to_own(dimension, value),
+                    bound,
+                    limit: self.to_own(dimension, limit),
+                }
+            }
+            error => error,
+        }
     }
 
     /// The machine's own unit of a dimension, in SI units.

@@ -1,4 +1,4 @@
-//! Builds the phases of a scene from its data, layer by layer (lowering).
+//! Builds the phases of a scene from its data, layer by layer.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -21,26 +21,26 @@ impl Phases {
             force: 0.0,
         };
         let drive = scene.excitation;
-        let mut lowering = PhaseBuilder {
+        let mut builder = PhaseBuilder {
             scene: Cow::Borrowed(scene),
             side: 1.0,
             phases: Vec::with_capacity(8),
             surfaces: Vec::new(),
         };
-        lowering.add_phase(PhaseKind::Free, free, None, StopEnergy::default());
-        let unfed = lowering.add_stack(&plan_layers(scene, free, false));
+        builder.add_phase(PhaseKind::Free, free, None, StopEnergy::default());
+        let unfed = builder.add_stack(&plan_layers(scene, free, false));
         let fed = match scene.piercing {
-            Some(_) => lowering.add_stack(&plan_layers(scene, free, true)),
+            Some(_) => builder.add_stack(&plan_layers(scene, free, true)),
             None => unfed.clone(),
         };
-        lowering.join_to_free(&fed, &unfed);
+        builder.join_to_free(&fed, &unfed);
         let below = match scene.mirrored() {
-            Some(mirrored) => lowering.add_stack_below(mirrored, free),
+            Some(mirrored) => builder.add_stack_below(mirrored, free),
             None => Stack::default(),
         };
         Phases {
-            phases: lowering.phases,
-            surfaces: lowering.surfaces.into(),
+            phases: builder.phases,
+            surfaces: builder.surfaces.into(),
             amplitude: drive.amplitude / scene.mass,
             frequency: drive.frequency,
             mass: scene.mass,
@@ -156,7 +156,7 @@ impl PhaseBuilder<'_> {
             spring: plan.spring,
             hertz: plan.hertz,
         };
-        let add = |lowering: &mut Self, law| lowering.add_phase(plan.kind, law, plan.hertz, store);
+        let add = |builder: &mut Self, law| builder.add_phase(plan.kind, law, plan.hertz, store);
         let inward = add(self, plan.forward);
         let outward = plan.backward.map_or(inward, |law| add(self, law));
         let beyond = Beyond::Phase(inward);

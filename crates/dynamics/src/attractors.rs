@@ -46,8 +46,8 @@ pub struct Attractor {
     pub state: Start,
     /// The orbit, if it repeats: polished by Newton's method; stable.
     pub orbit: Option<Box<Orbit>>,
-    /// How certain the orbit is.
-    pub certainty: Option<OrbitResiduals>,
+    /// How surely the orbit is one.
+    pub residuals: Option<OrbitResiduals>,
     /// Least and largest position in m at which motions were seen to end, if it rests.
     pub positions: Option<[f64; 2]>,
     /// What chaos is like, if the motion is chaotic and was watched.
@@ -69,7 +69,7 @@ impl Attractor {
             motion,
             state,
             orbit: None,
-            certainty: None,
+            residuals: None,
             positions: None,
             chaos: None,
             exponents: None,

@@ -25,6 +25,7 @@
 //! ```
 
 mod basin_test;
+mod basins;
 mod bring_to_section;
 mod certainty;
 mod classify_cells;
@@ -42,6 +43,7 @@ mod survey;
 pub use crate::wilson_interval::wilson_interval;
 pub(crate) use basin_test::TestedMotion;
 pub use basin_test::{BasinTest, SLOW_DECAY};
+pub use basins::{BasinOptions, Basins};
 pub(crate) use bring_to_section::bring_to_section;
 pub use certainty::{CertaintyAtPlace, establishing_certainties};
 pub use entropy::BasinEntropy;
@@ -51,52 +53,3 @@ pub use global_continuation::{BasinsAt, follow_attractors};
 pub use grid::{Axis, AxisQuantity, Grid};
 pub use largest_ball::{BasinBall, find_largest_ball};
 pub use survey::find_basins;
-
-use serde::Serialize;
-
-use crate::attractors::Attractor;
-use crate::orbit::Regime;
-
-/// All basins on a grid: the attractors, and which of them each cell settles on.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Basins {
-    /// Where the cells lie.
-    pub grid: Grid,
-    /// The attractors on which the cells' motions settle: periodic motions by period, impacts and hardest impact; then rest,
-    /// chaos (nothing that returns, with a positive exponent), what is unsettled, and what is lost.
-    pub classes: Vec<Attractor>,
-    /// The basin of each cell, row by row.
-    pub cells: Vec<u16>,
-    /// Why the first of the cells that are lost could not be computed.
-    pub lost: Option<String>,
-}
-
-impl Basins {
-    /// Share of the grid's cells whose motions settle in a regime, and its 95 % interval.
-    pub fn regime_share(&self, regime: Regime) -> (f64, [f64; 2]) {
-        let classes = self.classes.iter();
-        let own = classes.filter(|class| class.motion.regime() == Some(regime));
-        let cells = own.map(|class| class.starts).sum();
-        let all = self.cells.len();
-        (cells as f64 / all as f64, wilson_interval(cells, all))
-    }
-}
-
-/// Options of a survey of basins: how long the motions of a grid's cells are followed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct BasinOptions {
-    /// Drive periods after which a motion that no ball holds is classified by its log, or followed on if it settles slowly.
-    pub transient: u64,
-    /// Longest period looked for, in drive periods.
-    pub longest: usize,
-}
-
-impl Default for BasinOptions {
-    fn default() -> Self {
-        Self {
-            transient: 512,
-            longest: 64,
-        }
-    }
-}

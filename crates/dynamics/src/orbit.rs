@@ -20,6 +20,7 @@ mod periodic_orbit;
 pub(crate) mod recurrence;
 pub(crate) mod regime;
 mod search_harder_single_impact;
+mod single_impact_search;
 mod smallest_period;
 mod stroboscopic_map;
 mod trial_motions;

@@ -66,13 +66,13 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// Linearises the cycle from the impact `from` through all crossings `passages`, velocities in units of `velocity`: sets the
+    /// Linearises the cycle from the impact `from` through all `crossings`, velocities in units of `velocity`: sets the
     /// arcs and the derivative of the next return. None if a law is not linear or a crossing not transversal.
     pub fn linearise(
         &mut self,
         laws: &[PhaseConstants],
         drive: &Forcing,
-        (from, passages): (GuardCrossing, &[GuardCrossing]),
+        (from, crossings): (GuardCrossing, &[GuardCrossing]),
         velocity: f64,
     ) -> Option<()> {
         self.arcs.clear();
@@ -82,15 +82,15 @@ impl Cycle {
         let mut state = Matrix2::new(0.0, 0.0, velocity, 0.0);
         let mut delay = RowVector2::new(0.0, 1.0 / drive.frequency);
         let mut angle = drive.angle_at(at.offset);
-        for passage in passages {
-            let turned = drive.angle_at(passage.offset);
-            let between = [(&at, angle), (passage, turned)];
+        for crossing in crossings {
+            let turned = drive.angle_at(crossing.offset);
+            let between = [(&at, angle), (crossing, turned)];
             self.add_arc(&laws[at.phase], drive, between, (&state, &delay))?;
             let arc = self.arcs.last()?;
             angle = turned;
             state = arc.reset * arc.at_end.tangent;
             delay -= arc.gradient * arc.at_end.tangent;
-            at = *passage;
+            at = *crossing;
         }
         self.map = Matrix2::from_rows(&[state.row(1) / velocity, delay * drive.frequency]);
         let mut by_state = Matrix2::new(0.0, 1.0 / velocity, 0.0, 0.0);

@@ -1,4 +1,4 @@
-//! One instant of a cycle: its crossings (passages), its state with derivatives, and the drive.
+//! One instant of a cycle: its guard crossing, its state with derivatives, and the drive.
 
 use nalgebra::{Complex, Matrix2, Vector2};
 

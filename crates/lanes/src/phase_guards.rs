@@ -13,9 +13,9 @@ pub(super) struct PhaseGuard {
 
 impl PhaseConstants {
     /// The guard of the phase that a crossing is of, told by its position.
-    pub fn crossed_guard(&self, passage: &GuardCrossing) -> PhaseGuard {
+    pub fn crossed_guard(&self, crossing: &GuardCrossing) -> PhaseGuard {
         let [high, low, further] = self.guards();
-        match passage.position {
+        match crossing.position {
             x if x == high.level => high,
             x if x == -low.level => low,
             _ => further,

@@ -28,7 +28,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     pub fn record_trial_crossings(&mut self, crossed: Mask<S, N>, before: Lanes<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if crossed.get(lane) && self.returns[lane].is_trial() {
-                self.returns[lane].passages.push(GuardCrossing {
+                self.returns[lane].crossings.push(GuardCrossing {
                     position: self.state.x.get(lane),
                     velocity: before.get(lane),
                     velocity_after: self.state.v.get(lane),

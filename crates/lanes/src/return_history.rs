@@ -119,7 +119,7 @@ pub(super) struct ReturnHistory {
     moment: f64,
     /// The trial cycle: its first return, its crossings and its derivatives.
     tried: PostImpactState,
-    pub passages: Vec<GuardCrossing>,
+    pub crossings: Vec<GuardCrossing>,
     cycle: Cycle,
 }
 
@@ -286,7 +286,7 @@ impl ReturnHistory {
             left: self.left - (number + times * self.every + whole),
             angle: None,
             impacts: times.mul_add(self.each, after.impacts),
-            crossings: times.mul_add(self.passages.len() as f64, after.crossings),
+            crossings: times.mul_add(self.crossings.len() as f64, after.crossings),
             ..*after
         }
     }
@@ -315,7 +315,7 @@ impl ReturnHistory {
     /// Lets the lane follow a trial cycle from a guess of the limit, `step` away from the guess before.
     fn begin_trial(&mut self, guess: Vector2<f64>, step: f64) -> ReturnDecision {
         self.tried = self.return_at(guess, 0.0);
-        self.passages.clear();
+        self.crossings.clear();
         self.stage = Stage::Trial(step);
         ReturnDecision {
             resume_at: Some(self.tried),
@@ -335,7 +335,7 @@ impl ReturnHistory {
         let velocity = self.velocity;
         let begun = self.tried.as_crossing();
         self.cycle
-            .linearise(laws, drive, (begun, &self.passages), velocity)?;
+            .linearise(laws, drive, (begun, &self.crossings), velocity)?;
         let map = self.cycle.map;
         let inverse = (Matrix2::identity() - map).try_inverse()?;
         let tried = self.return_point(&self.tried).1;

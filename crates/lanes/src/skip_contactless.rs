@@ -12,7 +12,7 @@ const UNSKIPPED_PERIODS: f64 = 4.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Moves active lanes on to the last drive periods of their job if they provably never meet a surface again: their free motion
-    /// dies away, and the largest sum of it and the steady motion lies below the guard. Observers are told of these.
+    /// dies away, and the largest sum of it and the steady motion lies below the guard. Observers are told of the skipped periods.
     #[inline(always)]
     pub fn skip_contactless_periods<const HAS_OTHER_ENDS: bool>(
         &mut self,

@@ -129,7 +129,7 @@ impl AttractorCatalogue {
             size: motion_size(self.drive_frequency(), &states),
             states,
             orbit,
-            certainty: OrbitResiduals {
+            residuals: OrbitResiduals {
                 returned,
                 residual,
                 rounding,
@@ -143,7 +143,7 @@ impl AttractorCatalogue {
 #[derive(Debug, Clone)]
 pub(crate) struct KnownOrbit {
     pub orbit: Orbit,
-    pub certainty: OrbitResiduals,
+    pub residuals: OrbitResiduals,
     /// Its states at drive angle phi, after each drive period.
     pub states: Vec<Start>,
     /// The size of the motion in m/s.

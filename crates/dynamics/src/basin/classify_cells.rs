@@ -30,7 +30,7 @@ impl BasinSurvey<'_> {
         });
         for (index, known) in known {
             let class = |starts| Attractor {
-                certainty: Some(known.certainty),
+                residuals: Some(known.residuals),
                 ..Attractor::from_orbit(&known.orbit, starts)
             };
             self.enter_class(&mut basins, |it| it.attractor() == Some(index), class);

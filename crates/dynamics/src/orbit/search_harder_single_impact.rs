@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-use super::all_single_impact_orbits::{SingleImpactSearch, impact_distance, time_distance};
 use super::impact_lattice::{
     LATTICE_SPEED_RATIO, LATTICE_TIMES, guess_impacts_from_lattice, lattice_speeds,
 };
+use super::single_impact_search::{SingleImpactSearch, impact_distance, time_distance};
 use super::{Orbit, OrbitError, TimedImpact};
 use crate::monitor::Monitor;
 use crate::tolerance::NEAR;

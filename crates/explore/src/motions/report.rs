@@ -71,8 +71,8 @@ pub(super) fn report(
 /// What is told of a motion, by its kind.
 fn figures(attractor: &Attractor) -> Record {
     let mut figures = Record::default();
-    if let (Some(orbit), Some(certainty)) = (&attractor.orbit, &attractor.certainty) {
-        figures = figures.and(Record::of(&periodic(), &(orbit, certainty)));
+    if let (Some(orbit), Some(residuals)) = (&attractor.orbit, &attractor.residuals) {
+        figures = figures.and(Record::of(&periodic(), &(orbit, residuals)));
     }
     if let Some(chaos) = &attractor.chaos {
         figures = figures.and(Record::of(&chaotic(), chaos));

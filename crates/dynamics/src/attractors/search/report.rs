@@ -38,7 +38,7 @@ impl Search<'_> {
                 |it: &&SearchMember| it.counts && it.member.status.attractor() == Some(index);
             let starts = self.members.iter().filter(here).count();
             Attractor {
-                certainty: Some(known.certainty),
+                residuals: Some(known.residuals),
                 exponents: Some(LyapunovExponents::of(&known.orbit)),
                 ..Attractor::from_orbit(&known.orbit, (starts, counted))
             }
