@@ -32,8 +32,8 @@ fn survey_by(scene: &Scene, options: &SearchOptions) -> Survey {
 
 /// A motion in short: the order of its impacts, or what else it is.
 fn name(found: &Attractor) -> String {
-    if let (Some(orbit), Some(certainty)) = (&found.orbit, found.certainty) {
-        assert!(certainty.residual <= certainty.rounding, "{certainty:?}");
+    if let (Some(orbit), Some(residuals)) = (&found.orbit, found.residuals) {
+        assert!(residuals.residual <= residuals.rounding, "{residuals:?}");
         assert!(orbit.is_stable());
     }
     let order = found.motion.order().map(ToString::to_string);
