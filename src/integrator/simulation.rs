@@ -33,7 +33,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// The machine from a [`Start`] at time 0 s, or as a [`InitialConditions`] says.
+    /// The machine from a [`Start`](super::Start) at time 0 s, or as [`InitialConditions`] says.
     ///
     /// # Errors
     /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond a rigid stop.
