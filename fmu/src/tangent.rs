@@ -2,6 +2,7 @@
 //! that lead the drive.
 
 use softstop::{Perturbation, Sensitivity};
+use softstop_fmi::variable::Scaled;
 use softstop_fmi::{Events, Known, Outcome, Unit, slope};
 
 use crate::machine::Machine;
@@ -63,8 +64,8 @@ impl Tangent {
     }
 
     /// The derivative of an output.
-    pub(crate) fn along(&self, exact: fn(&Self) -> f64, value: fn(&Machine) -> f64) -> f64 {
-        exact(self) + self.machine.difference(&self.rest, value)
+    pub(crate) fn along(&self, exact: fn(&Self) -> f64, output: Scaled<Machine>) -> f64 {
+        exact(self) + self.machine.difference(&self.rest, output)
     }
 }
 
@@ -114,7 +115,7 @@ impl Machine {
     }
 
     /// The derivative of an output along inputs of the drive.
-    fn difference(&self, direction: &[(usize, f64)], value: fn(&Self) -> f64) -> f64 {
+    fn difference(&self, direction: &[(usize, f64)], (value, nominal): Scaled<Self>) -> f64 {
         let width = |&(number, seed): &(usize, f64)| WIDTH * self.scale(number) / seed.abs();
         let width = direction.iter().map(width).fold(f64::INFINITY, f64::min);
         if width == f64::INFINITY {
@@ -124,13 +125,16 @@ impl Machine {
             let of = machine.contacts();
             (machine.phase(), of.impacts, of.pierced)
         };
-        let same = |machine: &Self| story(machine) == story(self);
-        let at = |step| {
-            let machine = self.repeated(direction, step).ok()?;
-            same(&machine).then(|| value(&machine))
+        // Energies and contacts count from the beginning of the last step.
+        let Ok(unmoved) = self.repeated(direction, 0.0) else {
+            return f64::NAN;
         };
-        // Energies count from the beginning of the last step.
-        at(0.0).map_or(f64::NAN, |here| slope(here, width, at))
+        let here = value(&unmoved);
+        slope(here, nominal, width, |step| {
+            let machine = self.repeated(direction, step).ok()?;
+            let there = value(&machine);
+            (there == here || story(&machine) == story(&unmoved)).then_some(there)
+        })
     }
 
     /// How much of an input of the drive is much.

@@ -286,3 +286,27 @@ fn stored_energy_beside_a_knee() {
         assert_close(&found, &[position - expected[0]], 1e-6, "clearance");
     }
 }
+
+/// After a step with impacts, once an input has been set: the amplitude feeds through to the acceleration alone.
+#[test]
+fn feedthrough_of_the_amplitude_after_impacts() {
+    for speed in [0.0, 1.0] {
+        let unit = Unit::new();
+        unit.set_all(&[
+            ("mass", 2.0),
+            ("drive.takes.amplitude", 1.0),
+            ("drive.amplitude", 1.0),
+            ("drive.takes.speed", speed),
+            ("drive.speed", 1.15),
+        ]);
+        unit.begin();
+        assert_eq!(unit.step(0.0, 7.0), OK);
+        assert!(unit.get("impact.step.count") > 0.0);
+        assert_eq!(unit.set("force", 0.1), OK);
+        let of = ["acceleration", "contact.peak", "position", "drive.force"];
+        let found = unit.derivatives(&of, &[("drive.amplitude", 1.0)]);
+        let cos = unit.get("drive.angle").cos();
+        let expected = [0.5 * cos, 0.0, 0.0, cos];
+        assert_close(&found.expect("available"), &expected, 1e-9, "amplitude");
+    }
+}

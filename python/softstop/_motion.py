@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 
 class Motion:
-    """An exact motion from time 0 over whole drive periods, as `simulate` follows it. Pickled, it is machine, start and forces,
-    and is followed again, to the same bits, where it is read.
+    """An exact motion from time 0 over whole drive periods, as `simulate` follows it. Pickled, it is machine, start, periods
+    and forces, and is followed again where it is read, on the same computer to the same bits.
 
     Attributes
     ----------

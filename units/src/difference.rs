@@ -1,5 +1,6 @@
 //! Derivatives of outputs along a direction, by differences of the last step gone through again.
 
+use softstop_fmi::variable::Scaled;
 use softstop_fmi::{Known, slope};
 
 /// Width of the first differences along the direction, in units of what is typical of each known.
@@ -35,11 +36,12 @@ impl<U: Clone> Direction<U> {
     }
 
     /// The derivative of an output.
-    pub(crate) fn of(&self, value: fn(&U) -> f64) -> f64 {
+    pub(crate) fn of(&self, (value, nominal): Scaled<U>) -> f64 {
         if self.steepest == 0.0 {
             return 0.0;
         }
-        slope(value(&self.unit), WIDTH / self.steepest, |step| {
+        let (here, width) = (value(&self.unit), WIDTH / self.steepest);
+        slope(here, nominal, width, |step| {
             let moved = (self.repeat)(&self.unit, &self.direction, step)?;
             Some(value(&moved))
         })

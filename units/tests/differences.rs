@@ -32,7 +32,7 @@ fn of_the_speed_by_the_work_of_the_load() {
             unreachable!("speed is continuous");
         };
         let along = drive.tangent(&[(Known::Signal(LOAD), 1.0)]);
-        let found = tangent(&along.expect("a derivative"), value);
+        let found = tangent(&along.expect("a derivative"), (value, 1.0));
         assert_relative_eq!(found * size, -1.0, max_relative = 1e-6);
     }
 }
@@ -42,17 +42,23 @@ fn of_the_speed_by_the_work_of_the_load() {
 fn narrow_enough_or_none() {
     for beside in [1e-1, 1e-3, 1e-5, -1e-5] {
         let bent = |x: f64| (x - beside).abs() + x.sin();
-        let found = slope(bent(0.0), 1.0, |x| Some(bent(x)));
+        let found = slope(bent(0.0), 1.0, 1.0, |x| Some(bent(x)));
         assert_relative_eq!(found, 1.0 - beside.signum(), epsilon = 1e-6);
         let jumps = |x: f64| f64::from(u8::from(x > beside)) + x.sin();
-        let found = slope(jumps(0.0), 1.0, |x| Some(jumps(x)));
+        let found = slope(jumps(0.0), 1.0, 1.0, |x| Some(jumps(x)));
         assert_relative_eq!(found, 1.0, epsilon = 1e-6);
-        let found = slope(0.0, 1.0, |x| (x < beside.abs()).then(|| x.sin()));
+        let found = slope(0.0, 1.0, 1.0, |x| (x < beside.abs()).then(|| x.sin()));
         assert_relative_eq!(found, 1.0, epsilon = 1e-6);
     }
-    let one_sided = slope(0.0, 1.0, |x| (x >= 0.0).then(|| x.sin()));
+    let one_sided = slope(0.0, 1.0, 1.0, |x| (x >= 0.0).then(|| x.sin()));
     assert_relative_eq!(one_sided, 1.0, epsilon = 1e-6);
-    assert!(slope(0.0, 1.0, |x| Some(x.abs())).is_nan());
-    assert!(slope(0.0, 1.0, |x| Some(x.signum())).is_nan());
-    assert!(slope(0.0, 1.0, |_| None).is_nan());
+    assert!(slope(0.0, 1.0, 1.0, |x| Some(x.abs())).is_nan());
+    assert!(slope(0.0, 1.0, 1.0, |x| Some(x.signum())).is_nan());
+    assert!(slope(0.0, 1.0, 1.0, |_| None).is_nan());
+    // Rounding in parts of what is usual of a value does not count, however small the value or its derivative.
+    for (here, derivative) in [(0.0, 0.0), (1e-9, 1e-9), (0.0, 1e-8)] {
+        let rounded = |x: f64| here + derivative * x + 1e-16 * (1e9 * x).sin();
+        let found = slope(here, 1.0, 1e-3, |x| Some(rounded(x)));
+        assert!((found - derivative).abs() < 1e-10, "{found}");
+    }
 }

@@ -135,7 +135,9 @@ impl Fault {
     pub(crate) const fn status(&self, standard: Standard) -> Status {
         match self {
             Self::Discarded { .. } | Self::Refused(_) => Status::Discard,
-            Self::Unfit(_) if matches!(standard, Standard::Fmi3) => Status::Discard,
+            Self::Unfit(_) | Self::NoDerivative(_) if matches!(standard, Standard::Fmi3) => {
+                Status::Discard
+            }
             _ => Status::Error,
         }
     }

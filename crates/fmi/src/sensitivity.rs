@@ -16,16 +16,20 @@ use crate::lifecycle::Lifecycle;
 use crate::reading::{Type, find};
 use crate::solving::{number_of_state, space_of};
 use crate::unit::{Known, Row, Unit};
-use crate::variable::{Access, Reading, Slot, Value};
+use crate::variable::{Access, Scaled, Slot, Tangent};
 
 /// Widths that a difference is tried with.
 const WIDTHS: u32 = 8;
 /// Share of a derivative by which differences to both sides may disagree.
 const AGREEMENT: f64 = 1e-7;
-/// Share of a value, over the first width, that rounding may bring.
-const ROUNDING: f64 = 1e-10;
+/// Shares of a value and of its order of magnitude that rounding may bring, over the first width.
+const ROUNDING_OF_VALUE: f64 = 1e-10;
+const ROUNDING_OF_NOMINAL: f64 = 1e-13;
 /// How many times as far the differences may disagree that agree best, if no width lets them agree.
 const LOOSE: f64 = 100.0;
+
+/// Its name, its value and its derivative.
+type Unknown<U> = (&'static str, Scaled<U>, Tangent<U, <U as Unit>::Tangent>);
 
 impl<U: Unit> Instance<U> {
     /// The derivatives of `unknowns` along the direction `seed` of `knowns`.
@@ -47,7 +51,7 @@ impl<U: Unit> Instance<U> {
         let unit = present.as_ref().unwrap_or(unit);
         let (direction, parameters) = self.direction(unit, knowns, seed)?;
         let along = unit.tangent(&direction)?;
-        for (&(name, (output, tangent)), value) in outputs.iter().zip(sensitivity) {
+        for (&(name, output, tangent), value) in outputs.iter().zip(sensitivity) {
             *value = tangent(&along, output);
             for &(parameter, slot, seed) in &parameters {
                 *value += seed * self.by_parameter(unit, parameter, slot, output);
@@ -136,7 +140,13 @@ impl<U: Unit> Instance<U> {
     /// The derivative of an output at the start, or of an importer that integrates now, by a parameter, of which such
     /// outputs are elementary functions. Differences keep to one side where the law of the motion, or the range of the
     /// parameter, ends; by a parameter that cannot change at all it is zero.
-    fn by_parameter(&self, unit: &U, parameter: &Row<U>, slot: Slot, output: Value<U>) -> f64 {
+    fn by_parameter(
+        &self,
+        unit: &U,
+        parameter: &Row<U>,
+        slot: Slot,
+        (output, nominal): Scaled<U>,
+    ) -> f64 {
         let (value, here) = (self.values[slot.0], output(unit));
         let width = if value == 0.0 {
             1e-3
@@ -144,7 +154,7 @@ impl<U: Unit> Instance<U> {
             0.01 * value.abs()
         };
         let can_change = Cell::new(false);
-        let slope = slope(here, width, |step| {
+        let slope = slope(here, nominal, width, |step| {
             let moved = value + step;
             let moved = parameter
                 .kind
@@ -152,7 +162,9 @@ impl<U: Unit> Instance<U> {
                 .then(|| self.with_parameter(unit, slot, moved));
             let moved = moved?.ok()?;
             can_change.set(true);
-            (moved.law() == unit.law()).then(|| output(&moved))
+            let there = output(&moved);
+            // What stays as it is may do so under another law.
+            (there == here || moved.law() == unit.law()).then_some(there)
         });
         if can_change.get() { slope } else { 0.0 }
     }
@@ -172,10 +184,11 @@ impl<U: Unit> Instance<U> {
 }
 
 /// The derivative of a function by differences extrapolated to width zero (Richardson 1911), within some 1e-10 of the
-/// true one: `here` is its value, `at` that after a change of its argument, none where it goes on otherwise. They become
-/// narrower until those to both sides agree, or keep to the only side that there is. NaN where no width is narrow enough.
-pub fn slope(here: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 {
-    let rounding = ROUNDING * here.abs() / width;
+/// true one: `here` is its value, `nominal` the order of magnitude of that, `at` the value after a change of its argument, none
+/// where it goes on otherwise. They become narrower until those to both sides agree, or keep to the only side that there is.
+/// NaN where no width is narrow enough.
+pub fn slope(here: f64, nominal: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 {
+    let rounding = (ROUNDING_OF_VALUE * here.abs()).max(ROUNDING_OF_NOMINAL * nominal) / width;
     let mut best = (f64::INFINITY, f64::NAN);
     for _ in 0..WIDTHS {
         let side = |width: f64| -> Option<[f64; 4]> {
@@ -226,11 +239,11 @@ fn extrapolated(mut slopes: [f64; 4], ratio: f64) -> (f64, f64) {
 }
 
 /// The name of an unknown, and how it and its derivative are read.
-fn unknown<U: Unit>(reference: u32) -> Result<(&'static str, Reading<U, U::Tangent>), Fault> {
+fn unknown<U: Unit>(reference: u32) -> Result<Unknown<U>, Fault> {
     let variable = find::<U>(reference, Type::REAL)?;
     match variable.access {
         Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent, .. } => {
-            Ok((variable.name, (value, tangent)))
+            Ok((variable.name, (value, variable.kind.nominal()), tangent))
         }
         _ => Err(Fault::NoUnknown(variable.name)),
     }

@@ -49,6 +49,14 @@ impl Kind {
         }
     }
 
+    /// The order of magnitude of its values.
+    pub fn nominal(&self) -> f64 {
+        match self {
+            Self::Real(kind) => kind.nominal.unwrap_or(1.0),
+            _ => 1.0,
+        }
+    }
+
     /// Whether a variable of this type can have this value; an enumeration's is its number, and every
     /// number stands for a Boolean.
     pub fn contains(&self, value: f64) -> bool {
@@ -172,8 +180,10 @@ macro_rules! slots {
 
 /// How a real value of a unit is read.
 pub type Value<U> = fn(&U) -> f64;
+/// How a real value is read, and its order of magnitude.
+pub type Scaled<U> = (Value<U>, f64);
 /// How the derivative of a real value along a direction is read.
-pub type Tangent<U, T> = fn(&T, Value<U>) -> f64;
+pub type Tangent<U, T> = fn(&T, Scaled<U>) -> f64;
 /// How both are read.
 pub type Reading<U, T> = (Value<U>, Tangent<U, T>);
 

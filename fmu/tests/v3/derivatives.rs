@@ -4,7 +4,7 @@ use softstop_fmi::variable::{Access, Kind};
 use softstop_fmu::table;
 
 use super::unit::Unit;
-use crate::common::reference;
+use crate::common::{DISCARD, OK, reference};
 
 const KNOWNS: [&str; 4] = [
     "initial.position",
@@ -31,6 +31,16 @@ const RIGID: &[(&str, f64)] = &[
 pub fn assert_close(one: f64, other: f64, most: f64) {
     assert!((one - other).abs() <= most, "{one} and {other}");
 }
+
+const AT_REST_ON_A_PRELOADED_STOP: [(&str, f64); 7] = [
+    ("stop.model", 2.0),
+    ("piercing.thickness", 0.0),
+    ("piercing.travel", 0.0),
+    ("clearance", 0.5),
+    ("initial.position", 0.5),
+    ("initial.velocity", 0.0),
+    ("stop.preload", 32.0),
+];
 
 fn reals() -> Vec<u32> {
     let real = table().rows().filter(|variable| {
@@ -141,4 +151,27 @@ fn adjoint_is_directional_transposed_over_many_impacts() {
             assert_eq!(gradient, columns);
         }
     }
+}
+
+/// On a preloaded stop at rest, which another clearance would move to or away: an output that it bends is refused, and the
+/// instance goes on.
+#[test]
+fn an_output_without_a_derivative_ends_nothing() {
+    let unit = Unit::new((false, false));
+    for (name, value) in AT_REST_ON_A_PRELOADED_STOP {
+        unit.check(unit.set(name, value));
+    }
+    unit.enter();
+    let [clearance, position, force] =
+        ["clearance", "position", "contact.force"].map(|name| [reference(name)]);
+    let by_clearance = |of: &[u32]| unit.try_directional(of, &clearance, &[1.0]);
+    assert_eq!(by_clearance(&position), (OK, vec![0.0]));
+    assert_eq!(by_clearance(&force).0, DISCARD);
+    let lines = unit.take_log();
+    assert!(
+        lines.len() == 1 && lines[0].contains("contact.force has no derivative"),
+        "{lines:?}"
+    );
+    unit.exit();
+    unit.step(0.0, 1.0);
 }

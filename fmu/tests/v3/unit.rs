@@ -119,18 +119,20 @@ impl Unit {
         for (name, value) in values {
             self.check(self.set(name, *value));
         }
+        self.enter();
+        self.exit();
+    }
+
+    /// Enters initialisation at time 0.
+    pub fn enter(&self) {
         // SAFETY: the instance is alive.
-        unsafe {
-            self.check(fmi3EnterInitializationMode(
-                self.instance,
-                0,
-                0.0,
-                0.0,
-                0,
-                0.0,
-            ));
-            self.check(fmi3ExitInitializationMode(self.instance));
-        }
+        self.check(unsafe { fmi3EnterInitializationMode(self.instance, 0, 0.0, 0.0, 0, 0.0) });
+    }
+
+    /// Leaves initialisation.
+    pub fn exit(&self) {
+        // SAFETY: the instance is alive.
+        self.check(unsafe { fmi3ExitInitializationMode(self.instance) });
     }
 
     /// An instance in step mode at time 0 under these values.

@@ -1,5 +1,7 @@
 //! Derivatives of a unit.
 
+use std::ffi::c_int;
+
 use softstop_fmi3::*;
 
 use super::Unit;
@@ -16,14 +18,20 @@ macro_rules! derivatives {
                 instance, of, counts.0, by, counts.1, seed, counts.2, place, $count,
             )
         };
-        $unit.check(status);
-        values
+        (status, values)
     }};
 }
 
 impl Unit {
     /// Derivatives of outputs along a direction.
     pub fn directional(&self, of: &[u32], by: &[u32], seed: &[f64]) -> Vec<f64> {
+        let (status, values) = self.try_directional(of, by, seed);
+        self.check(status);
+        values
+    }
+
+    /// Status and derivatives of outputs along a direction.
+    pub fn try_directional(&self, of: &[u32], by: &[u32], seed: &[f64]) -> (c_int, Vec<f64>) {
         derivatives!(fmi3GetDirectionalDerivative, self, of, by, seed, of.len())
     }
 
@@ -34,6 +42,8 @@ impl Unit {
 
     /// Derivatives of a weighted sum of outputs by knowns that have so many elements.
     pub fn adjoint_of(&self, of: &[u32], by: &[u32], seed: &[f64], count: usize) -> Vec<f64> {
-        derivatives!(fmi3GetAdjointDerivative, self, of, by, seed, count)
+        let (status, values) = derivatives!(fmi3GetAdjointDerivative, self, of, by, seed, count);
+        self.check(status);
+        values
     }
 }
