@@ -243,7 +243,7 @@ fn key_hint(key: &str, meant: Option<&str>) -> &'static str {
     }
 }
 
-/// The end of an error message on a misspelt name: which `key` may be meant; empty if none is.
+/// The end of an error message on a misspelt name, of a machine or elsewhere: which `key` may be meant; empty if none is.
 pub fn did_you_mean(key: Option<&str>) -> String {
     key.map_or_else(String::new, |key| format!(" (did you mean {key}?)"))
 }

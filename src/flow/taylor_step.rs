@@ -140,7 +140,7 @@ impl TaylorStep {
         }
     }
 
-    /// The series in sigma of d(time)/d(sigma).
+    /// The series in sigma of d(time)/d(sigma); 1 in a step in time.
     pub(super) fn time_rate_series(&self) -> Series {
         derivative(&self.time_in_sigma())
     }

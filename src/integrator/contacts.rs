@@ -116,7 +116,7 @@ impl Observer for ContactRecorder<'_> {
     }
 }
 
-/// The force of drive, external force and suspension in N at a time of an arc.
+/// The force in N of drive, external force and the spring of the suspension, without its damper, at a time of an arc.
 fn static_force(scene: &Scene, arc: &Arc<'_>, time: f64) -> f64 {
     let law = arc.phase.map_or(0.0, |phase| phase.law.force);
     scene.mass * arc.course.forcing_at(time) - law - scene.stiffness * arc.at(time).position

@@ -3,6 +3,7 @@
 use super::observer::Impact;
 use super::simulation::Simulation;
 use super::start::Start;
+use crate::events::Guard;
 use crate::flow::DriveAngle;
 use crate::phases::PhaseKind;
 
@@ -160,6 +161,21 @@ impl Simulation {
             supplied,
             dissipated: (supplied.0 - mechanical.0, supplied.1 - mechanical.1),
         }
+    }
+
+    /// How far the state is from the ends of the present law, as shares of what a `length` in m amounts to; < 0 beyond one.
+    pub fn guard_margins(&self, length: f64) -> impl Iterator<Item = f64> {
+        let rate = self.scene.excitation.frequency;
+        self.motion.guard_values().map(move |(guard, value)| {
+            let Guard {
+                position,
+                velocity,
+                forcing,
+                ..
+            } = guard;
+            let weight = position.abs() + rate * (velocity.abs() + rate * forcing.abs());
+            -value / (weight * length)
+        })
     }
 }
 

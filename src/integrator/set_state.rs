@@ -8,7 +8,7 @@ use crate::phases::{Mode, Phase};
 
 impl Motion {
     /// The guards that end the present law, each with its value in the present state.
-    fn guard_values(&self) -> impl Iterator<Item = (Guard, f64)> {
+    pub(super) fn guard_values(&self) -> impl Iterator<Item = (Guard, f64)> {
         let Start { position, velocity } = self.state();
         let forcing = self
             .phases
@@ -79,21 +79,6 @@ impl Simulation {
         self.motion.mode = of.motion.mode;
         self.motion.begin_in_state(self.motion.state());
         self.motion.stand_before_passed_guard();
-    }
-
-    /// How far the state is from the ends of the present law, as shares of what a `length` in m amounts to; < 0 beyond one.
-    pub fn guard_margins(&self, length: f64) -> impl Iterator<Item = f64> {
-        let rate = self.scene.excitation.frequency;
-        self.motion.guard_values().map(move |(guard, value)| {
-            let Guard {
-                position,
-                velocity,
-                forcing,
-                ..
-            } = guard;
-            let weight = position.abs() + rate * (velocity.abs() + rate * forcing.abs());
-            -value / (weight * length)
-        })
     }
 
     /// True while bounces on a rigid stop are summed up to their end.

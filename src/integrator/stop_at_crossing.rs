@@ -43,8 +43,8 @@ impl Motion {
         }
     }
 
-    /// Advances to where another motion is that has begun as this one, but for rounding: if that one stands at a crossing, to
-    /// the side of it on which it stands.
+    /// Advances to where another motion is that has begun as this one, but for rounding: if that one stands at a crossing, this
+    /// one stops right before it or lets it happen, as that one did.
     pub(crate) fn advance_like(
         &mut self,
         other: &Self,

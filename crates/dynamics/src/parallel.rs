@@ -2,6 +2,7 @@
 //! of the thread that asks for it. An iterator of `rayon` is compiled anew wherever it stands, some 2,000 lines of LLVM each;
 //! here the work is a `dyn Fn` and the threads are shared out in one place.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -14,6 +15,19 @@ fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
     let part = |index| budget.run_part(|| work(index));
     (0..count).into_par_iter().for_each(part);
     budget.charge_parts();
+}
+
+/// The numbers of a range in blocks of `size`, on all threads, in order.
+pub fn parallel_blocks(
+    numbers: Range<u64>,
+    size: u64,
+) -> impl IndexedParallelIterator<Item = Range<u64>> + Clone {
+    let Range { start, end } = numbers;
+    let count = (end - start).div_ceil(size) as usize;
+    (0..count).into_par_iter().map(move |block| {
+        let first = start + block as u64 * size;
+        first..(first + size).min(end)
+    })
 }
 
 /// The values of a function of the numbers below `count`, computed on all threads, in order.

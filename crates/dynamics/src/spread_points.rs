@@ -3,12 +3,6 @@
 //! They come from the crate `sobol_burley` (direction numbers of Joe and Kuo; Owen's scrambling by Laine and Karras's
 //! hash, Burley 2020), which has 2^16 of them, to 24 bits, under each seed. So a million are 16 sequences that are
 //! scrambled independently: randomised quasi-Monte-Carlo, whose scatter from sequence to sequence is its error.
-//!
-//! [`parallel_blocks`] hands the numbers of points out to all threads, in blocks whose outcomes come in order.
-
-use std::ops::Range;
-
-use rayon::prelude::*;
 
 /// Number of points of one scrambled Sobol sequence; later points are of the next sequence, scrambled independently.
 pub const SEQUENCE_LENGTH: usize = 1 << 16;
@@ -16,19 +10,6 @@ pub const SEQUENCE_LENGTH: usize = 1 << 16;
 pub const MAX_DIMENSIONS: u32 = 4 * sobol_burley::NUM_DIMENSION_SETS_4D;
 /// An odd number by which seeds of Sobol sequences are multiplied, so that no two seeds share a sequence soon.
 const SEED_STEP: u32 = 0x9e37_79b9;
-
-/// The indices of points in blocks of `size`, on all threads, in order.
-pub fn parallel_blocks(
-    points: Range<u64>,
-    size: u64,
-) -> impl IndexedParallelIterator<Item = Range<u64>> + Clone {
-    let Range { start, end } = points;
-    let count = (end - start).div_ceil(size) as usize;
-    (0..count).into_par_iter().map(move |block| {
-        let first = start + block as u64 * size;
-        first..(first + size).min(end)
-    })
-}
 
 /// One coordinate, between 0 and 1, of the scrambled Sobol point `index`; `dimension`: which, below [`MAX_DIMENSIONS`].
 pub fn sobol_coordinate(seed: u32, index: u64, dimension: u32) -> f64 {

@@ -54,7 +54,7 @@ impl ContractionNorm {
     }
 }
 
-/// The larger absolute value of the two eigenvalues of a 2 x 2 matrix, by its trace and determinant.
+/// The larger absolute value of the two eigenvalues of a 2 x 2 matrix such as the return map of a lane, by its trace and determinant.
 pub(super) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     let half = 0.5 * trace.abs();
     let square = half.mul_add(half, -determinant);

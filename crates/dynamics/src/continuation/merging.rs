@@ -66,7 +66,7 @@ impl Continuation<'_> {
     }
 
     /// Scaled gap that closes where an orbit merges: from a state to that after half the periods, or to its mirror image; none
-    /// where there is neither.
+    /// where there is neither, or the orbit is its own mirror image already.
     pub(super) fn merging_gap(&self, node: &CurveNode<PeriodMap>) -> Option<DVector<f64>> {
         let periods = self.shooting.periods;
         if !periods.is_multiple_of(2) {

@@ -109,7 +109,7 @@ pub(super) fn same_orientation(
     is_same_sign(sense(from, before), sense(to, after))
 }
 
-/// True if two senses of direction are one, or there is none.
-pub(super) fn is_same_sign(from: f64, to: f64) -> bool {
+/// True if two values have one sign, or either is zero to rounding.
+fn is_same_sign(from: f64, to: f64) -> bool {
     from * to >= 0.0 || from.abs().min(to.abs()) <= ROUNDING
 }

@@ -237,7 +237,8 @@ fn fold_rates(
     Ok(forced.map(|column| null.dot(&column.xy())).collect())
 }
 
-/// The normal of a border at a flip, up to a factor: derivatives of 1 + tr + det or of det along the orbit.
+/// The normal of a border at a flip or a Neimark-Sacker point, up to a factor: derivatives of 1 + tr + det, or of det, along the
+/// orbit. Folds have [`fold_rates`].
 fn test_rates(
     scene: &CheckedScene,
     periods: u64,
@@ -253,8 +254,8 @@ fn test_rates(
     Ok(rates.map(rate).collect())
 }
 
-/// The normal of a border at a grazing orbit, up to a factor: -dw/dp from rest at the surface to rest there; angle of
-/// the touch and frequency are unknown. What moves along the frequency stands last among the parameters.
+/// The normal of a border at a grazing orbit, up to a factor: -dw/dp of the drive frequency w at which the orbit
+/// grazes, solved with the drive angle of the touch from rest at the surface to rest there. What moves along the frequency stands last among the parameters.
 fn grazing_rates(
     scene: &CheckedScene,
     periods: u64,

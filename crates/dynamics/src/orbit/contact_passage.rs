@@ -25,7 +25,8 @@ pub(super) struct ClearanceSurface {
     surface: Surface,
 }
 
-/// A passage through contact, from its impact until the mass is free again.
+/// A passage through contact, from its impact until the mass is free again, with the free motion after it and what an observer
+/// gathered on the way (`T`).
 #[derive(Debug, Clone)]
 pub(super) struct ContactPassage<T = Tangent> {
     kind: CrossingKind,

@@ -110,7 +110,7 @@ pub(super) fn impact_distance((t, v): TimedImpact, (u, w): TimedImpact, period: 
     time_distance(t, u, period).max((v - w).abs() / v.max(w))
 }
 
-/// Distance of two times around the period, as a share of it.
+/// Distance of the times of two impacts around the period, as a share of it.
 pub(super) fn time_distance(one: f64, other: f64, period: f64) -> f64 {
     let between = (one - other).rem_euclid(period);
     between.min(period - between) / period

@@ -158,7 +158,7 @@ fn is_off_branch(
     is_inside && own().is_ok_and(|own| !is_same_state(&own, point.state(), scene))
 }
 
-/// The frequencies at which z = 1 motions are searched: g0 of grazing, beside both grazings, the [`SEARCH_ROWS`], and beside the
+/// The frequencies at which z = 1 motions are searched for all stable ranges: g0 of grazing, beside both grazings, the [`SEARCH_ROWS`], and beside the
 /// lowest.
 fn search_frequencies(scene: &Scene, grazing: Option<(Option<f64>, f64)>) -> Vec<f64> {
     let natural = scene.scales().rate;

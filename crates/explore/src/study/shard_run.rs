@@ -15,7 +15,7 @@ use softstop_console::keep::KEPT;
 use softstop_console::lock;
 use softstop_console::progress::Progress;
 use softstop_console::record_log::RecordLog;
-use softstop_dynamics::spread_points;
+use softstop_dynamics::parallel::parallel_blocks;
 
 use super::blocks::{Blocks, place};
 use super::file::Study;
@@ -105,7 +105,7 @@ impl<'a> ShardRun<'a> {
         let progress = Progress::new(own().map(size).sum(), "points");
         let known = |block: &u64| self.blocks().places[*block as usize].is_some();
         progress.begin_at(own().filter(known).map(size).sum());
-        spread_points::parallel_blocks(0..self.study.points, BLOCK).try_for_each(|points| {
+        parallel_blocks(0..self.study.points, BLOCK).try_for_each(|points| {
             let block = points.start / BLOCK;
             if !self.shard.holds(block) || known(&block) {
                 return Ok(());

@@ -9,8 +9,8 @@ use softstop_dynamics::attractors::{Arrival, SearchOptions, settle_starts};
 use softstop_dynamics::internals::evenly_spread_point;
 use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::parallel::parallel_blocks;
 use softstop_dynamics::settled::classify_wandering;
-use softstop_dynamics::spread_points::parallel_blocks;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, StroboscopicMap};
 
 use super::{Map, PERIODS, STARTS, middle};
