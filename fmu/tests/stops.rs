@@ -173,4 +173,9 @@ fn two_clearances_in_any_order() {
         assert_eq!(unit.step(0.1, 0.5), OK);
     }
     assert_eq!(unit.get("position"), untouched.get("position"));
+    // To end needs neither.
+    assert_eq!(unit.set("clearance", values[0]), OK);
+    assert_eq!(unsafe { fmi2Terminate(unit.component) }, OK);
+    assert_eq!(unit.get("clearance"), 1.0);
+    assert_eq!(unit.get("position"), untouched.get("position"));
 }

@@ -88,7 +88,7 @@ impl Simulation {
             forcing: 0.0,
             later: 0.0,
             way: 0.0,
-            hardest: 0.0,
+            hardest: None,
             peak: 0.0,
             end_rate: None,
         };
@@ -145,8 +145,9 @@ struct SensitivityRecorder<'a> {
     later: f64,
     /// Change of the integral of the position, in m s.
     way: f64,
-    /// Velocity of the hardest impact in m/s, and largest contact force in N.
-    hardest: f64,
+    /// Velocity in m/s of the hardest impact so far.
+    hardest: Option<f64>,
+    /// Largest contact force in N so far.
     peak: f64,
     /// Rate of that force in N/s, if it is the one at the end of the last arc.
     end_rate: Option<f64>,
@@ -197,11 +198,11 @@ impl Observer for SensitivityRecorder<'_> {
                 time: self.later,
                 velocity: side * (self.velocity + a * self.later),
             };
-            if self.hardest == 0.0 {
+            if self.hardest.is_none() {
                 self.found.first = by;
             }
-            if velocity > self.hardest {
-                (self.hardest, self.found.hardest) = (velocity, by);
+            if self.hardest.is_none_or(|hardest| velocity > hardest) {
+                (self.hardest, self.found.hardest) = (Some(velocity), by);
             }
             (self.found.impact_time, self.found.impact_velocity) = (by.time, by.velocity);
         }

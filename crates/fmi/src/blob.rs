@@ -53,7 +53,11 @@ impl<U: Unit> Instance<U> {
         let instance: Self =
             ciborium::from_reader(data).map_err(|_| Fault::Blob("cannot be read"))?;
         let sizes = |instance: &Self| (instance.values.len(), instance.signals.len());
-        if sizes(&instance) != sizes(&Self::new()) {
+        let sound = instance
+            .sound
+            .as_ref()
+            .map_or(instance.values.len(), Vec::len);
+        if sizes(&instance) != sizes(&Self::new()) || sound != instance.values.len() {
             return Err(Fault::Blob("has another set of variables"));
         }
         Ok(instance)

@@ -201,6 +201,10 @@ impl<U: Unit> Instance<U> {
             ],
             "only an initialised unit can be terminated",
         )?;
+        // Nothing needs what does not go together any more.
+        if let Some(sound) = self.sound.take() {
+            self.values = sound;
+        }
         self.ready_for_outputs()?;
         self.lifecycle = Lifecycle::Terminated;
         Ok(())

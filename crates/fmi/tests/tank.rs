@@ -44,6 +44,8 @@ const START: u32 = 2;
 const GAIN: u32 = 3;
 const LEVEL: u32 = 200;
 const STEPS: u32 = 201;
+/// Bytes before the data of a state.
+const HEADER: usize = 52;
 
 // Takes one argument after the format where C takes any number; the library passes exactly one.
 unsafe extern "C" fn logger(
@@ -269,6 +271,46 @@ fn bytes_lead_on() {
         assert_eq!(tank.step(3.0, 1.0), OK);
     }
     assert_eq!(one.get(LEVEL), other.get(LEVEL));
+}
+
+/// Values to go back to that are too few are refused, as too few values are.
+#[test]
+fn bytes_of_other_values_are_refused() {
+    let tank = Instance::begun();
+    let (component, mut state, mut size) = (tank.component, ptr::null_mut(), 0);
+    unsafe {
+        assert_eq!(fmi2GetFMUstate(component, &raw mut state), OK);
+        let status = fmi2SerializedFMUstateSize(component, state, &raw mut size);
+        assert_eq!(status, OK);
+    }
+    let mut bytes = vec![0_u8; size];
+    let place: *mut c_char = bytes.as_mut_ptr().cast();
+    assert_eq!(
+        unsafe { fmi2SerializeFMUstate(component, state, place, size) },
+        OK
+    );
+    assert_eq!(unsafe { fmi2FreeFMUstate(component, &raw mut state) }, OK);
+    let (head, data) = bytes.split_at(HEADER);
+    let guid = uuid::Uuid::from_slice(&head[12..28]).expect("a GUID");
+    // One more entry of a CBOR map: a text of five letters, and an array.
+    let three = [&[0x83][..], &[0xf9, 0, 0].repeat(3)].concat();
+    for (sound, expected) in [(&three[..], OK), (&[0x80], ERROR)] {
+        let mut data = [data, b"\x65sound", sound].concat();
+        data[0] += 1;
+        let fingerprint = uuid::Uuid::new_v5(&guid, &data);
+        let length = (data.len() as u64).to_le_bytes();
+        let bytes = [&head[..28], fingerprint.as_bytes(), &length, &data].concat();
+        let place: *const c_char = bytes.as_ptr().cast();
+        let status =
+            unsafe { fmi2DeSerializeFMUstate(component, place, bytes.len(), &raw mut state) };
+        assert_eq!(status, expected, "{:?}", tank.log());
+    }
+    let lines = tank.log();
+    assert!(
+        lines[0].contains("has another set of variables"),
+        "{lines:?}"
+    );
+    assert_eq!(unsafe { fmi2FreeFMUstate(component, &raw mut state) }, OK);
 }
 
 #[test]
