@@ -10,13 +10,15 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 use softstop::internals::Polynomial;
-use softstop::{Excitation, Simulation};
+use softstop::{Clock, Excitation, Simulation};
 use softstop_fmi::Derivatives;
 
 /// Length of a piece in rad.
 const PIECE: f64 = 0.25;
 /// Share of the parameter's frequency below which there is no harmonic drive: the time is resolved by its period.
 const SLOWEST: f64 = 1.0 / 16.0;
+/// Angle in rad beyond which the whole turns of a constant speed are counted apart: its rounding is below 1e-13 rad.
+const MAX_COUNTED_ANGLE: f64 = 1e3;
 
 /// Whether speed and amplitude are those of the inputs, and where the drive stands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,6 +29,7 @@ pub(crate) struct Drive {
     pub frequency: f64,
     /// Angle in rad at the time `since` in s, without so many whole turns where they would take digits of it.
     angle: f64,
+    #[serde(default)]
     turns: f64,
     since: f64,
     /// Speed in rad/s and amplitude in N from there on.
@@ -96,7 +99,7 @@ impl Drive {
 
     /// Counts the time from `now` on.
     fn go_on_from(&mut self, now: f64) {
-        let phase = self.angle_at(now);
+        let (turns, phase) = self.turns_and_angle_at(now);
         (self.speed, self.amplitude) = (self.speed_at(now), self.amplitude_at(now));
         self.angle = Excitation {
             amplitude: 0.0,
@@ -104,8 +107,15 @@ impl Drive {
             phase,
         }
         .reduced_phase();
-        self.turns += ((phase - self.angle) / TAU).round();
+        self.turns += turns + ((phase - self.angle) / TAU).round();
         self.since = now;
+    }
+
+    /// Counts whole turns of a constant speed up to `now` apart, where they would take digits of the angle.
+    pub fn count_turns(&mut self, now: f64) {
+        if self.turns_and_angle_at(now).0 != 0.0 {
+            self.go_on_from(now);
+        }
     }
 
     /// Goes on from `now` with other parameters, where the inputs do not say it.
@@ -131,16 +141,35 @@ impl Drive {
 
     /// The angle in rad at a time, over all turns.
     pub fn whole_angle_at(&self, time: f64) -> f64 {
-        TAU.mul_add(self.turns, self.angle_at(time))
+        let (turns, angle) = self.turns_and_angle_at(time);
+        TAU.mul_add(self.turns + turns, angle)
     }
 
-    /// The angle in rad at a time, without whole turns before.
+    /// The angle in rad at a time, without whole turns that would take digits of it.
     pub fn angle_at(&self, time: f64) -> f64 {
-        let (t, terms) = (time - self.since, self.speed.derivatives().iter());
+        self.turns_and_angle_at(time).1
+    }
+
+    /// Whole turns that are counted apart since `since`, and the angle in rad beside them, at a time.
+    fn turns_and_angle_at(&self, time: f64) -> (f64, f64) {
+        let (t, speed) = (time - self.since, self.speed.value());
+        if self.is_steady() && (speed * t).abs() > MAX_COUNTED_ANGLE {
+            let at = Clock::new(speed.abs(), 0.0).instant(t);
+            return (
+                speed.signum() * at.cycles,
+                speed.mul_add(at.offset, self.angle),
+            );
+        }
+        let terms = self.speed.derivatives().iter();
         let turned = terms.enumerate().rev().fold(0.0, |sum, (k, derivative)| {
             (derivative + sum) * (t / (k + 1) as f64)
         });
-        self.angle + turned
+        (0.0, self.angle + turned)
+    }
+
+    /// True if it turns with a constant speed.
+    fn is_steady(&self) -> bool {
+        is_constant(&self.speed)
     }
 
     /// True if it turns with a constant speed and amplitude, as an engine's drive does.
@@ -151,9 +180,8 @@ impl Drive {
     /// True if it has to be followed in pieces.
     pub fn varies(&self) -> bool {
         let speed = self.speed.value().abs();
-        let constant = |of: &Polynomial| of.is_linear() && of.rate() == 0.0;
         let crawls = speed > 0.0 && speed < SLOWEST * self.frequency;
-        crawls || !constant(&self.speed) || !constant(&self.amplitude)
+        crawls || !self.is_steady() || !is_constant(&self.amplitude)
     }
 
     /// Where the piece ends that begins at `time`, not after `until`.
@@ -196,7 +224,7 @@ impl Drive {
     pub fn piece(&self, from: f64, until: f64) -> Piece {
         let span = until - from;
         let (angle, middle) = (self.angle_at(from), from + 0.5 * span);
-        let speed = if span > 0.0 && self.varies() {
+        let speed = if span > 0.0 && !self.is_steady() {
             (self.angle_at(until) - angle) / span
         } else {
             self.speed_at(from).value()
@@ -227,6 +255,10 @@ impl Drive {
             rest,
         }
     }
+}
+
+fn is_constant(of: &Polynomial) -> bool {
+    of.is_linear() && of.rate() == 0.0
 }
 
 fn constant(value: f64) -> Derivatives {

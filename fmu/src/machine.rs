@@ -108,6 +108,11 @@ impl Machine {
         self.more.is_open = false;
     }
 
+    /// True if something was set since the last step, or none was taken: no stretch leads to the present state.
+    pub(crate) fn is_step_over(&self) -> bool {
+        !self.more.is_open && self.more.origin.is_none()
+    }
+
     /// Keeps the contacts of a piece of a step.
     pub(crate) fn keep_contacts(&mut self) {
         if self.more.is_open {

@@ -115,14 +115,11 @@ impl Machine {
     fn push_until(&mut self, until: f64) -> Outcome<()> {
         let now = self.simulation().time();
         let force = self.more.external.at(now, self.simulation().scene().mass);
-        let Some(piece) = self
-            .more
-            .drive
-            .as_ref()
-            .map(|drive| drive.piece(now, until))
-        else {
+        let Some(drive) = &mut self.more.drive else {
             return Ok(self.change().set_force(force.derivatives())?);
         };
+        drive.count_turns(now);
+        let piece = drive.piece(now, until);
         let sum = |k: usize| force.derivatives()[k] + piece.rest.derivatives()[k];
         let force: Derivatives = std::array::from_fn(sum);
         let simulation = self.change();
@@ -165,16 +162,16 @@ impl Machine {
         }
     }
 
-    /// Lets the machine as it was before a step in pieces go through that again; tells it after each piece.
-    pub(crate) fn go_again(
+    /// Lets the machine as it was before a step in pieces go through all but the last one again, which this machine can tell
+    /// of, as it may have passed an event at its end or not; tells it after each piece.
+    pub(crate) fn replay_to_last_piece(
         &self,
         origin: &mut Self,
         each: &mut dyn FnMut(&Self) -> Outcome<()>,
     ) -> Outcome<()> {
-        let end = self.simulation().time();
-        let halt = self.simulation().is_at_crossing().then_some(end);
+        let end = self.simulation().time_of_checkpoint();
         let (mut effort, mut events) = (EFFORT, Events::default());
-        origin.go_in_pieces(end, halt, &mut effort, &mut events, each)?;
+        origin.go_in_pieces(end, None, &mut effort, &mut events, each)?;
         Ok(())
     }
 

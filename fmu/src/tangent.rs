@@ -1,7 +1,7 @@
 //! Derivatives of the outputs along a direction: exact, but by differences of steps gone through again along the inputs
 //! that lead the drive.
 
-use softstop::{Perturbation, Sensitivity};
+use softstop::{Contacts, Perturbation, Sensitivity};
 use softstop_fmi::variable::Scaled;
 use softstop_fmi::{Events, Known, Outcome, Unit, slope};
 
@@ -11,6 +11,9 @@ use crate::start::slot;
 
 /// Width of the first differences, as a share of what leads the drive.
 const WIDTH: f64 = 1e-3;
+
+/// Time by which an event may miss itself as a step is gone through again, as shares of the drive period and of the time.
+const EVENT_ROUNDING: (f64, f64) = (1e-12, 4.0 * f64::EPSILON);
 
 /// What a direction of change at the beginning of the last step brings.
 #[derive(Debug)]
@@ -81,7 +84,7 @@ impl Machine {
     fn sensitivity_in_pieces(&self, origin: &Self, by: &Perturbation) -> Outcome<Sensitivity> {
         let mut sum = Sensitivity::default();
         (sum.position, sum.velocity) = (by.position, by.velocity);
-        let mut add = |machine: &Self| {
+        let mut add = |before: &Self, machine: &Self| {
             let by = Perturbation {
                 position: sum.position,
                 velocity: sum.velocity,
@@ -92,7 +95,7 @@ impl Machine {
             next.dissipated += sum.dissipated;
             next.impulse += sum.impulse;
             next.work += sum.work;
-            let kept = machine.more.contacts.as_deref().copied();
+            let kept = before.more.contacts.as_deref().copied();
             let (kept, piece) = (kept.unwrap_or_default(), machine.simulation().contacts()?);
             if piece.impacts == 0 {
                 next.impact_time = sum.impact_time;
@@ -110,7 +113,9 @@ impl Machine {
             sum = next;
             Ok(())
         };
-        self.go_again(&mut origin.clone(), &mut add)?;
+        let mut last = origin.clone();
+        self.replay_to_last_piece(&mut last, &mut |machine| add(machine, machine))?;
+        add(&last, self)?;
         Ok(sum)
     }
 
@@ -121,19 +126,25 @@ impl Machine {
         if width == f64::INFINITY {
             return 0.0;
         }
-        let story = |machine: &Self| {
-            let of = machine.contacts();
-            (machine.phase(), of.impacts, of.pierced)
+        let story = |machine: &Self, of: &Contacts| (machine.phase(), of.impacts, of.pierced);
+        let told = |machine: &Self| story(machine, machine.contacts());
+        let expected = match self.is_step_over() {
+            true => story(self, &Contacts::default()),
+            false => told(self),
         };
-        // Energies and contacts count from the beginning of the last step.
-        let Ok(unmoved) = self.repeated(direction, 0.0) else {
+        // Energies count from the beginning of the last step. An event at its end is on the same side of that.
+        let ends = [0.0, self.event_rounding()];
+        let Some((unmoved, later)) = ends.into_iter().find_map(|later| {
+            let unmoved = self.repeated(direction, 0.0, later).ok();
+            Some((unmoved.filter(|of| told(of) == expected)?, later))
+        }) else {
             return f64::NAN;
         };
         let here = value(&unmoved);
         slope(here, nominal, width, |step| {
-            let machine = self.repeated(direction, step).ok()?;
+            let machine = self.repeated(direction, step, later).ok()?;
             let there = value(&machine);
-            (there == here || story(&machine) == story(&unmoved)).then_some(there)
+            (there == here || told(&machine) == expected).then_some(there)
         })
     }
 
@@ -145,12 +156,27 @@ impl Machine {
         let length = if length > 0.0 { length } else { 1.0 };
         match number {
             signal::SPEED => rate,
-            _ => scene.mass * rate * rate * length,
+            _ => {
+                let amplitude = self.signal(signal::AMPLITUDE).value().abs();
+                amplitude.max(scene.mass * rate * rate * length)
+            }
         }
     }
 
-    /// The last step again, under inputs of the drive that were moved by `step` along a direction.
-    fn repeated(&self, direction: &[(usize, f64)], step: f64) -> Outcome<Self> {
+    /// By how much in s the end of the last step is moved so that an event there stays before it, or behind it.
+    fn event_rounding(&self) -> f64 {
+        let simulation = self.simulation();
+        let (of_period, of_time) = EVENT_ROUNDING;
+        let rounding = of_period * simulation.scene().period() + of_time * simulation.time().abs();
+        match simulation.is_at_crossing() {
+            true => -rounding,
+            false => rounding,
+        }
+    }
+
+    /// The last step again, up to an end that is `later` by so much in s, under inputs of the drive that were moved by `step`
+    /// along a direction.
+    fn repeated(&self, direction: &[(usize, f64)], step: f64, later: f64) -> Outcome<Self> {
         let begin = self.more.origin.as_deref().unwrap_or(self);
         let simulation = begin.simulation().at_checkpoint();
         let mut machine = Self::new(simulation, begin.more.clone().afresh());
@@ -162,6 +188,7 @@ impl Machine {
         machine.push()?;
         let end = self.simulation().time();
         if end > machine.simulation().time() {
+            let end = end + later;
             let halt = self.simulation().is_at_crossing().then_some(end);
             machine.go_to(end, halt, &mut Events::default())?;
         }

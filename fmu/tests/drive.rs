@@ -157,10 +157,12 @@ fn ramps_are_limits_of_steps() {
     assert_near(errors[0] / errors[1], 4.0, 0.02);
 }
 
-/// A drive that has turned by 1.2e9 rad, at the start or since, pushes as one at the same angle without these turns.
+/// A drive that has turned by 1.2e9 rad, at the start or since, pushes as one at the same angle without these turns, also
+/// where inputs are set on the way.
 #[test]
 fn a_large_drive_angle_costs_no_digits() {
-    const WAITED: f64 = (1_u64 << 30) as f64;
+    const SOONER: f64 = (1_u64 << 29) as f64;
+    const WAITED: f64 = 1e9 + 0.3;
     let rest = |takes: &[&str]| {
         let unit = Unit::new();
         unit.set_all(&[("initial.position", 0.0), ("initial.velocity", 0.0)]);
@@ -169,13 +171,12 @@ fn a_large_drive_angle_costs_no_digits() {
             .for_each(|name| assert_eq!(unit.set(name, 1.0), OK));
         unit
     };
-    // Exactly so many radians.
-    let angle = WAITED * Unit::new().get("excitation.frequency");
+    let speed = Unit::new().get("excitation.frequency");
+    let angle = WAITED * speed;
+    let rounding = speed.mul_add(WAITED, -angle);
     let near = rest(&[]);
-    assert_eq!(
-        near.set("excitation.phase", angle.sin().atan2(angle.cos())),
-        OK
-    );
+    let phase = angle.sin().atan2(angle.cos()) + rounding;
+    assert_eq!(near.set("excitation.phase", phase), OK);
     near.begin();
     assert_eq!(near.step(0.0, 8.0), OK);
     let later = [&[][..], &["drive.takes.amplitude"]].map(|takes| {
@@ -187,11 +188,20 @@ fn a_large_drive_angle_costs_no_digits() {
     });
     let turned = rest(&["drive.takes.speed", "drive.takes.amplitude"]);
     turned.begin();
-    assert_eq!(turned.set("drive.speed", angle / WAITED), OK);
-    assert_eq!(turned.step(0.0, WAITED), OK);
+    assert_eq!(turned.set("drive.speed", speed), OK);
+    // Such a force moves nothing.
+    for (force, from, until) in [(1e-300, 0.0, SOONER), (2e-300, SOONER, WAITED)] {
+        assert_eq!(turned.step(from, until - from), OK);
+        assert_eq!(turned.set("force", force), OK);
+    }
     assert_eq!(turned.set("drive.amplitude", 1.0), OK);
+    let by_amplitude = turned.derivatives(&["drive.force"], &[("drive.amplitude", 1.0)]);
+    assert_near(by_amplitude.expect("available")[0], phase.cos(), 1e-12);
     for unit in later.iter().chain([&turned]) {
-        assert_eq!(unit.step(WAITED, 8.0), OK);
+        for step in 0..8 {
+            assert_eq!(unit.step(WAITED + f64::from(step), 1.0), OK);
+            assert_eq!(unit.set("force", 1e-300 * f64::from(step)), OK);
+        }
         for name in [
             "position",
             "velocity",
@@ -201,7 +211,7 @@ fn a_large_drive_angle_costs_no_digits() {
         ] {
             assert_near(unit.get(name), near.get(name), 1e-12);
         }
-        let whole = angle + 8.0 * near.get("excitation.frequency");
+        let whole = angle + 8.0 * speed;
         assert_near(unit.get("drive.angle"), whole, 5e-7);
     }
 }

@@ -175,3 +175,49 @@ fn an_output_without_a_derivative_ends_nothing() {
     unit.exit();
     unit.step(0.0, 1.0);
 }
+
+/// Before a blow of a rigid stop and after it: its position changes by the opposite, times the restitution, whatever changes
+/// the motion and whatever the last digit of its time.
+#[test]
+fn both_sides_of_a_blow_under_a_drive_that_is_followed_in_pieces() {
+    for start in 0..40 {
+        for handling in [(true, true), (false, true)] {
+            let mut values = RIGID.to_vec();
+            values.extend([
+                ("drive.takes.speed", 1.0),
+                ("drive.takes.amplitude", 1.0),
+                ("drive.speed", if start % 2 == 0 { 0.06 } else { 1.15 }),
+                ("drive.amplitude", 40.0),
+                ("stop.restitution", 0.5),
+                ("clearance", 1.0),
+                ("initial.position", -1.0 - 0.01 * f64::from(start)),
+            ]);
+            let unit = Unit::begun(handling, &values);
+            let time = unit.step(0.0, 50.0).time;
+            let knowns = [
+                "force",
+                "drive.speed",
+                "drive.amplitude",
+                "initial.position",
+            ];
+            let changes = || {
+                let of = ["position", "impact.velocity"].map(reference);
+                knowns.map(|known| unit.directional(&of, &[reference(known)], &[1.0]))
+            };
+            let before = handling.0.then(|| {
+                unit.enter_event_mode();
+                let before = changes();
+                unit.update();
+                before
+            });
+            let after = changes();
+            let velocity = unit.get("impact.velocity");
+            assert_eq!(unit.get("impact.time"), time);
+            assert!(after.iter().all(|of| of[1] != 0.0), "{after:?}");
+            for (before, after) in before.iter().flatten().zip(&after) {
+                assert_eq!(before[1], 0.0);
+                assert_close(-0.5 * before[0], after[0], 1e-6 * (1.0 + velocity));
+            }
+        }
+    }
+}
