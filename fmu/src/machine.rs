@@ -31,7 +31,7 @@ pub(crate) struct More {
     /// Turns of the engine's drive before its clock began.
     #[serde(skip_serializing_if = "is_default")]
     pub turns: f64,
-    /// What is known of the contacts of the last step; the stretch that the engine has marked comes on top.
+    /// What is known of the contacts of the last step; what happened since its checkpoint comes on top.
     #[serde(skip_serializing_if = "is_default")]
     pub contacts: Option<Box<Contacts>>,
     pub is_open: bool,

@@ -10,7 +10,7 @@ use crate::signal;
 use crate::start::slot;
 
 /// Width of the first differences, as a share of what leads the drive.
-const WIDTH: f64 = 1e-3;
+const RELATIVE_WIDTH: f64 = 1e-3;
 
 /// Time by which an event may miss itself as a step is gone through again, as shares of the drive period and of the time.
 const EVENT_ROUNDING: (f64, f64) = (1e-12, 4.0 * f64::EPSILON);
@@ -22,7 +22,7 @@ pub struct Tangent {
     pub(crate) exact: Sensitivity,
     pub(crate) machine: Machine,
     /// Derivative of the force of the drive in N by its amplitude, of the present state.
-    pub(crate) drive_force: f64,
+    pub(crate) drive_force_change: f64,
     /// Inputs of the drive over the step, with their seeds.
     rest: Vec<(usize, f64)>,
 }
@@ -33,7 +33,7 @@ impl Tangent {
         // Of a direction of the present state all parts are.
         let is_present = (direction.iter()).any(|(known, _)| matches!(known, Known::State(_)));
         let drive = machine.more.drive.as_deref();
-        let (mut by, mut drive_force, mut rest) = (Perturbation::default(), 0.0, Vec::new());
+        let (mut by, mut drive_force_change, mut rest) = (Perturbation::default(), 0.0, Vec::new());
         for &(known, seed) in direction {
             match known {
                 Known::Signal(signal::FORCE) => by.force += seed,
@@ -42,7 +42,7 @@ impl Tangent {
                 Known::Signal(signal::AMPLITUDE) => {
                     let drive = drive.filter(|drive| drive.takes_amplitude);
                     let angle = drive.map(|drive| drive.angle_at(machine.time()));
-                    drive_force += angle.map_or(0.0, |angle| seed * angle.cos());
+                    drive_force_change += angle.map_or(0.0, |angle| seed * angle.cos());
                 }
                 // It turns from now on only.
                 Known::Signal(_) => {}
@@ -52,7 +52,7 @@ impl Tangent {
                 Known::Parameter(_) | Known::State(_) => by.velocity += seed,
             }
         }
-        by.force += drive_force;
+        by.force += drive_force_change;
         rest.retain(|(_, seed)| drive.is_some() && *seed != 0.0);
         let exact = match &machine.more.origin {
             Some(origin) => machine.sensitivity_in_pieces(origin, &by)?,
@@ -61,7 +61,7 @@ impl Tangent {
         Ok(Self {
             exact,
             machine: machine.clone(),
-            drive_force,
+            drive_force_change,
             rest,
         })
     }
@@ -121,7 +121,8 @@ impl Machine {
 
     /// The derivative of an output along inputs of the drive.
     fn difference(&self, direction: &[(usize, f64)], (value, nominal): Scaled<Self>) -> f64 {
-        let width = |&(number, seed): &(usize, f64)| WIDTH * self.scale(number) / seed.abs();
+        let width =
+            |&(number, seed): &(usize, f64)| RELATIVE_WIDTH * self.scale(number) / seed.abs();
         let width = direction.iter().map(width).fold(f64::INFINITY, f64::min);
         if width == f64::INFINITY {
             return 0.0;
@@ -134,15 +135,15 @@ impl Machine {
         };
         // Energies count from the beginning of the last step. An event at its end is on the same side of that.
         let ends = [0.0, self.event_rounding()];
-        let Some((unmoved, later)) = ends.into_iter().find_map(|later| {
-            let unmoved = self.repeated(direction, 0.0, later).ok();
-            Some((unmoved.filter(|of| told(of) == expected)?, later))
+        let Some((unmoved, end_shift)) = ends.into_iter().find_map(|end_shift| {
+            let unmoved = self.repeated(direction, 0.0, end_shift).ok();
+            Some((unmoved.filter(|of| told(of) == expected)?, end_shift))
         }) else {
             return f64::NAN;
         };
         let here = value(&unmoved);
         slope(here, nominal, width, |step| {
-            let machine = self.repeated(direction, step, later).ok()?;
+            let machine = self.repeated(direction, step, end_shift).ok()?;
             let there = value(&machine);
             (there == here || told(&machine) == expected).then_some(there)
         })
@@ -174,9 +175,9 @@ impl Machine {
         }
     }
 
-    /// The last step again, up to an end that is `later` by so much in s, under inputs of the drive that were moved by `step`
+    /// The last step again, up to an end that comes `end_shift` in s later, under inputs of the drive that were moved by `step`
     /// along a direction.
-    fn repeated(&self, direction: &[(usize, f64)], step: f64, later: f64) -> Outcome<Self> {
+    fn repeated(&self, direction: &[(usize, f64)], step: f64, end_shift: f64) -> Outcome<Self> {
         let begin = self.more.origin.as_deref().unwrap_or(self);
         let simulation = begin.simulation().at_checkpoint();
         let mut machine = Self::new(simulation, begin.more.clone().afresh());
@@ -188,7 +189,7 @@ impl Machine {
         machine.push()?;
         let end = self.simulation().time();
         if end > machine.simulation().time() {
-            let end = end + later;
+            let end = end + end_shift;
             let halt = self.simulation().is_at_crossing().then_some(end);
             machine.go_to(end, halt, &mut Events::default())?;
         }

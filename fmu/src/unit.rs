@@ -182,7 +182,7 @@ impl Unit for Machine {
         self.phase()
     }
 
-    fn mark(&mut self) {
+    fn set_checkpoint(&mut self) {
         self.close();
         self.change().set_checkpoint();
     }

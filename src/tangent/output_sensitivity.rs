@@ -11,9 +11,9 @@ use crate::phases::PhaseKind;
 use crate::scene::Scene;
 
 /// Share of a peak by which it may miss one that it goes on from, at the beginning of an arc.
-const ROUNDING: f64 = 1e-9;
+const MAX_RELATIVE_PEAK_GAP: f64 = 1e-9;
 /// Share of an arc over which the curvature of the contact force at its top is taken.
-const TOP_WIDTH: f64 = 1e-4;
+const RELATIVE_TOP_WIDTH: f64 = 1e-4;
 
 /// A small change of state and external force at the beginning of the last advance: the direction of [`Sensitivity`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -80,14 +80,14 @@ impl Simulation {
         let mut watch = SensitivityRecorder {
             scene,
             from,
-            worked: force,
+            working_force: force,
             force: by.force,
             position: by.position,
             velocity: by.velocity,
             found: Sensitivity::default(),
             forcing: 0.0,
-            later: 0.0,
-            way: 0.0,
+            crossing_delay: 0.0,
+            position_integral: 0.0,
             hardest: None,
             peak: 0.0,
             end_rate: None,
@@ -100,10 +100,12 @@ impl Simulation {
         let mechanical = energy_change(scene, now, position, velocity);
         let (acceleration, contact_force) = watch.force_changes(scene, now);
         let elapsed = motion.clock().elapsed(from, now.now());
-        let (moved, hastened) = (position - by.position, velocity - by.velocity);
+        let (position_change, velocity_change) = (position - by.position, velocity - by.velocity);
         // m x'' + b1 x' + k1 x + F = forcing, and the work f x less the integral of f' x; the position does not jump.
-        let resisted = scene.stiffness * watch.way + scene.damping * moved + scene.mass * hastened;
-        let worked = force.value_at(elapsed) * position - force.value() * by.position;
+        let resisted = scene.stiffness * watch.position_integral
+            + scene.damping * position_change
+            + scene.mass * velocity_change;
+        let end_work = force.value_at(elapsed) * position - force.value() * by.position;
         let travel = now.state().position - start.position;
         Ok(Sensitivity {
             position,
@@ -113,7 +115,7 @@ impl Simulation {
             mechanical,
             dissipated: watch.found.supplied - (mechanical - stored),
             impulse: by.force * elapsed - resisted,
-            work: watch.found.work + worked + by.force * travel,
+            work: watch.found.work + end_work + by.force * travel,
             ..watch.found
         })
     }
@@ -134,17 +136,17 @@ struct SensitivityRecorder<'a> {
     scene: &'a Scene,
     from: Instant,
     /// The force whose work is asked for.
-    worked: &'a Polynomial,
+    working_force: &'a Polynomial,
     force: f64,
     position: f64,
     velocity: f64,
     found: Sensitivity,
-    /// Push in N at the end of the last arc.
+    /// Forcing in N at the end of the last arc.
     forcing: f64,
     /// Change in s of the time of the crossing that an arc begins with, if it does.
-    later: f64,
+    crossing_delay: f64,
     /// Change of the integral of the position, in m s.
-    way: f64,
+    position_integral: f64,
     /// Velocity in m/s of the hardest impact so far.
     hardest: Option<f64>,
     /// Largest contact force in N so far.
@@ -166,22 +168,22 @@ impl Observer for SensitivityRecorder<'_> {
         self.forcing = mass * (arc.course.forcing_at(elapsed) - law);
         let since = arc.clock.elapsed(self.from, arc.start);
         let span = ((-since).max(0.0), elapsed);
-        let worked = self.worked.shifted(since);
-        let (way, unworked) = arc.course.displacement_variation(span, by, &worked);
-        self.way += way;
-        self.found.work -= unworked;
+        let force = self.working_force.shifted(since);
+        let (position_integral, lost_work) = arc.course.displacement_variation(span, by, &force);
+        self.position_integral += position_integral;
+        self.found.work -= lost_work;
         let end_rate = self.end_rate.take();
         if arc.kind != PhaseKind::Free && span.0 < elapsed {
-            self.look_for_peak(arc, span, by, end_rate.is_some());
+            self.record_peak(arc, span, by, end_rate.is_some());
         }
         (self.position, self.velocity) = arc.course.state_variation(elapsed, by);
         // Unless a crossing follows, the next arc goes on with this one.
-        self.later = 0.0;
+        self.crossing_delay = 0.0;
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
         let (v, a) = (crossing.velocity, crossing.acceleration_before);
-        self.later = match crossing.kind {
+        self.crossing_delay = match crossing.kind {
             CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } if v != 0.0 => {
                 -self.position / v
             }
@@ -190,13 +192,13 @@ impl Observer for SensitivityRecorder<'_> {
             _ => 0.0,
         };
         if let Some(rate) = self.end_rate {
-            self.found.peak += rate * self.later;
+            self.found.peak += rate * self.crossing_delay;
         }
         if let Some(velocity) = crossing.impact_velocity() {
             let side = 1f64.copysign(v);
             let by = Impact {
-                time: self.later,
-                velocity: side * (self.velocity + a * self.later),
+                time: self.crossing_delay,
+                velocity: side * (self.velocity + a * self.crossing_delay),
             };
             if self.hardest.is_none() {
                 self.found.first = by;
@@ -209,7 +211,7 @@ impl Observer for SensitivityRecorder<'_> {
         let jump = v - crossing.velocity_after;
         if jump != 0.0 && crossing.kind != CrossingKind::Rest {
             // The forcing works on another velocity from an impact on that comes later.
-            self.found.supplied += self.forcing * jump * self.later;
+            self.found.supplied += self.forcing * jump * self.crossing_delay;
         }
         let after = saltation(crossing) * nalgebra::Vector2::new(self.position, self.velocity);
         (self.position, self.velocity) = (after.x, after.y);
@@ -219,7 +221,7 @@ impl Observer for SensitivityRecorder<'_> {
 impl SensitivityRecorder<'_> {
     /// The change of the contact force where it is largest on an arc, if it is larger there than before, or goes on from
     /// the end of the last arc: at an end of the arc it comes with that.
-    fn look_for_peak(
+    fn record_peak(
         &mut self,
         arc: &Arc<'_>,
         (from, to): (f64, f64),
@@ -228,12 +230,19 @@ impl SensitivityRecorder<'_> {
     ) {
         let (mut time, peak) = contact_peak(self.scene, arc, (from, to));
         let goes_on = time == from && was_at_end;
-        if peak <= self.peak * if goes_on { 1.0 - ROUNDING } else { 1.0 } {
+        let share = if goes_on {
+            1.0 - MAX_RELATIVE_PEAK_GAP
+        } else {
+            1.0
+        };
+        if peak <= share * self.peak {
             return;
         }
         let rate = |time: f64| self.contact_change(arc, time, by).1;
         // A flat top tells half the digits of its time: a step of Newton's method towards where the rate is zero.
-        let width = (TOP_WIDTH * (to - from)).min(time - from).min(to - time);
+        let width = (RELATIVE_TOP_WIDTH * (to - from))
+            .min(time - from)
+            .min(to - time);
         let curvature = (rate(time + width) - rate(time - width)) / (2.0 * width);
         if curvature < 0.0 {
             time = (time - rate(time) / curvature).clamp(time - width, time + width);
@@ -242,7 +251,7 @@ impl SensitivityRecorder<'_> {
         self.peak = peak;
         self.found.peak = change;
         if time == from {
-            self.found.peak += rate * self.later;
+            self.found.peak += rate * self.crossing_delay;
         }
         self.end_rate = (time == to).then_some(rate);
     }
@@ -271,7 +280,9 @@ impl SensitivityRecorder<'_> {
         let acceleration =
             (forcing - stiffness * x - damping * v - phase.contact_force(x, v)) / mass;
         let (all, damped) = phase.force_derivatives(x, v);
-        let change = |way: f64, speed: f64| (all - stiffness) * way + (damped - damping) * speed;
+        let change = |position: f64, velocity: f64| {
+            (all - stiffness) * position + (damped - damping) * velocity
+        };
         (
             arc.side * change(position, velocity),
             arc.side * change(v, acceleration),

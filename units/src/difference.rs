@@ -4,7 +4,7 @@ use softstop_fmi::variable::Scaled;
 use softstop_fmi::{Known, slope};
 
 /// Width of the first differences along the direction, in units of what is typical of each known.
-const WIDTH: f64 = 1e-3;
+const RELATIVE_WIDTH: f64 = 1e-3;
 
 /// How a unit goes through its last step again, from a beginning that was moved.
 pub(crate) type Repeat<U> = fn(&U, &[(Known, f64)], f64) -> Option<U>;
@@ -40,7 +40,7 @@ impl<U: Clone> Direction<U> {
         if self.steepest == 0.0 {
             return 0.0;
         }
-        let (here, width) = (value(&self.unit), WIDTH / self.steepest);
+        let (here, width) = (value(&self.unit), RELATIVE_WIDTH / self.steepest);
         slope(here, nominal, width, |step| {
             let moved = (self.repeat)(&self.unit, &self.direction, step)?;
             Some(value(&moved))

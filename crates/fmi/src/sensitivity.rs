@@ -19,14 +19,14 @@ use crate::unit::{Known, Row, Unit};
 use crate::variable::{Access, Scaled, Slot, Tangent};
 
 /// Widths that a difference is tried with.
-const WIDTHS: u32 = 8;
+const MAX_WIDTH_COUNT: u32 = 8;
 /// Share of a derivative by which differences to both sides may disagree.
-const AGREEMENT: f64 = 1e-7;
+const MAX_RELATIVE_GAP: f64 = 1e-7;
 /// Shares of a value and of its order of magnitude that rounding may bring, over the first width.
-const ROUNDING_OF_VALUE: f64 = 1e-10;
-const ROUNDING_OF_NOMINAL: f64 = 1e-13;
+const RELATIVE_ROUNDING: f64 = 1e-10;
+const NOMINAL_ROUNDING: f64 = 1e-13;
 /// How many times as far the differences may disagree that agree best, if no width lets them agree.
-const LOOSE: f64 = 100.0;
+const MAX_GAP_FACTOR: f64 = 100.0;
 
 /// Its name, its value and its derivative.
 type Unknown<U> = (&'static str, Scaled<U>, Tangent<U, <U as Unit>::Tangent>);
@@ -47,7 +47,7 @@ impl<U: Unit> Instance<U> {
             .collect::<Result<Vec<_>, _>>()?;
         let unit = self.begun()?;
         let mut present = self.exchange.as_ref().map(|_| unit.clone());
-        present.iter_mut().for_each(U::mark);
+        present.iter_mut().for_each(U::set_checkpoint);
         let unit = present.as_ref().unwrap_or(unit);
         let (direction, parameters) = self.direction(unit, knowns, seed)?;
         let along = unit.tangent(&direction)?;
@@ -188,9 +188,9 @@ impl<U: Unit> Instance<U> {
 /// where it goes on otherwise. They become narrower until those to both sides agree, or keep to the only side that there is.
 /// NaN where no width is narrow enough.
 pub fn slope(here: f64, nominal: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 {
-    let rounding = (ROUNDING_OF_VALUE * here.abs()).max(ROUNDING_OF_NOMINAL * nominal) / width;
+    let rounding = (RELATIVE_ROUNDING * here.abs()).max(NOMINAL_ROUNDING * nominal) / width;
     let mut best = (f64::INFINITY, f64::NAN);
-    for _ in 0..WIDTHS {
+    for _ in 0..MAX_WIDTH_COUNT {
         let side = |width: f64| -> Option<[f64; 4]> {
             let mut slopes = [0.125 * width, 0.25 * width, 0.5 * width, width];
             for step in &mut slopes {
@@ -212,7 +212,7 @@ pub fn slope(here: f64, nominal: f64, mut width: f64, at: impl Fn(f64) -> Option
         };
         if let Some((gap, slope)) = found {
             // In parts of what may pass.
-            let gap = gap / (AGREEMENT * slope.abs() + rounding);
+            let gap = gap / (MAX_RELATIVE_GAP * slope.abs() + rounding);
             if gap <= 1.0 || gap.is_nan() {
                 return slope;
             }
@@ -222,7 +222,11 @@ pub fn slope(here: f64, nominal: f64, mut width: f64, at: impl Fn(f64) -> Option
         }
         width *= 0.1;
     }
-    if best.0 <= LOOSE { best.1 } else { f64::NAN }
+    if best.0 <= MAX_GAP_FACTOR {
+        best.1
+    } else {
+        f64::NAN
+    }
 }
 
 /// The limit of differences of which each is half as wide as the next one, and that of all but the widest; the first term

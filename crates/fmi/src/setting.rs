@@ -143,7 +143,7 @@ impl<U: Unit> Instance<U> {
             return;
         }
         if let Some(unit) = self.unit.as_mut().filter(|_| !self.awaits) {
-            unit.mark();
+            unit.set_checkpoint();
         }
         let now = self.time();
         let signal = &mut self.signals[number];

@@ -111,7 +111,7 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
     }
 
     /// Begins the stretch that [`Unit::tangent`] leads over; each advance begins one as well.
-    fn mark(&mut self) {}
+    fn set_checkpoint(&mut self) {}
 
     /// Whether there are derivatives by `known` over the stretch up to now.
     fn has_tangent(&self, _known: Known) -> bool {

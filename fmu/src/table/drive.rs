@@ -34,7 +34,7 @@ fn power(machine: &Machine) -> f64 {
 /// Derivative of its power.
 fn power_change(of: &Tangent) -> f64 {
     let (force, velocity) = (of.machine.drive_force().0, of.machine.sample().velocity);
-    of.drive_force * velocity + force * of.exact.velocity
+    of.drive_force_change * velocity + force * of.exact.velocity
 }
 
 /// All of it.
@@ -52,7 +52,7 @@ pub(super) const DRIVE: &[Row] = &[
         (|machine| machine.drive_angle().0, |of, output| of.along(|_| 0.0, output)), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
         "Angle of the drive F0 cos(angle), counted on over the turns"),
     continuous(213, "drive.force", shown_in(real(&units::FORCE), "kN"), with_drive(FORCED),
-        (|machine| machine.drive_force().0, |of, output| of.along(|of| of.drive_force, output)), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
+        (|machine| machine.drive_force().0, |of, output| of.along(|of| of.drive_force_change, output)), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
         "Force of the drive on the mass"),
     continuous(214, "drive.power", real(&units::POWER), with_drive(POWERED),
         (power, |of, output| of.along(power_change, output)), &[|machine| machine.drive_power().1, |machine| machine.drive_power().2],

@@ -220,7 +220,7 @@ impl Unit for Drive {
         Ok(Advance::Arrived)
     }
 
-    fn mark(&mut self) {
+    fn set_checkpoint(&mut self) {
         self.origin = None;
     }
 

@@ -202,7 +202,7 @@ impl Unit for Feeder {
         i32::from(self.line.strip)
     }
 
-    fn mark(&mut self) {
+    fn set_checkpoint(&mut self) {
         self.origin = None;
     }
 

@@ -185,7 +185,7 @@ impl Unit for Tank {
         })
     }
 
-    fn mark(&mut self) {
+    fn set_checkpoint(&mut self) {
         self.span = 0.0;
     }
 
