@@ -29,7 +29,7 @@ const NOMINAL_ROUNDING: f64 = 1e-13;
 const MAX_GAP_FACTOR: f64 = 100.0;
 
 /// Its name, its value and its derivative.
-type Unknown<U> = (&'static str, Scaled<U>, Tangent<U, <U as Unit>::Tangent>);
+type UnknownAccess<U> = (&'static str, Scaled<U>, Tangent<U, <U as Unit>::Tangent>);
 
 impl<U: Unit> Instance<U> {
     /// The derivatives of `unknowns` along the direction `seed` of `knowns`.
@@ -243,7 +243,7 @@ fn extrapolated(mut slopes: [f64; 4], ratio: f64) -> (f64, f64) {
 }
 
 /// The name of an unknown, and how it and its derivative are read.
-fn unknown<U: Unit>(reference: u32) -> Result<Unknown<U>, Fault> {
+fn unknown<U: Unit>(reference: u32) -> Result<UnknownAccess<U>, Fault> {
     let variable = find::<U>(reference, Type::REAL)?;
     match variable.access {
         Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent, .. } => {
