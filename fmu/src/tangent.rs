@@ -1,6 +1,10 @@
 //! Derivatives of the outputs along a direction: exact, but by differences of steps gone through again along the inputs
 //! that lead the drive.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
+
 use softstop::{Contacts, Perturbation, Sensitivity};
 use softstop_fmi::variable::Scaled;
 use softstop_fmi::{Events, Known, Outcome, Unit, slope};
@@ -25,6 +29,8 @@ pub struct Tangent {
     pub(crate) drive_force_change: f64,
     /// Inputs of the drive over the step, with their seeds.
     rest: Vec<(usize, f64)>,
+    /// The last step gone through again along these, by width and shift of its end.
+    repetitions: RefCell<HashMap<[u64; 2], Option<Rc<Machine>>>>,
 }
 
 impl Tangent {
@@ -63,12 +69,52 @@ impl Tangent {
             machine: machine.clone(),
             drive_force_change,
             rest,
+            repetitions: RefCell::default(),
         })
     }
 
     /// The derivative of an output.
     pub(crate) fn along(&self, exact: fn(&Self) -> f64, output: Scaled<Machine>) -> f64 {
-        exact(self) + self.machine.difference(&self.rest, output)
+        exact(self) + self.difference(output)
+    }
+
+    /// The derivative of an output along inputs of the drive.
+    fn difference(&self, (value, nominal): Scaled<Machine>) -> f64 {
+        let last = &self.machine;
+        let width =
+            |&(number, seed): &(usize, f64)| RELATIVE_WIDTH * last.scale(number) / seed.abs();
+        let width = self.rest.iter().map(width).fold(f64::INFINITY, f64::min);
+        if width == f64::INFINITY {
+            return 0.0;
+        }
+        let story = |machine: &Machine, of: &Contacts| (machine.phase(), of.impacts, of.pierced);
+        let told = |machine: &Machine| story(machine, machine.contacts());
+        let expected = match last.is_step_over() {
+            true => story(last, &Contacts::default()),
+            false => told(last),
+        };
+        // Energies count from the beginning of the last step. An event at its end is on the same side of that.
+        let ends = [0.0, last.event_rounding()];
+        let Some((unmoved, end_shift)) = ends.into_iter().find_map(|end_shift| {
+            let unmoved = self.repeated(0.0, end_shift);
+            Some((unmoved.filter(|of| told(of) == expected)?, end_shift))
+        }) else {
+            return f64::NAN;
+        };
+        let here = value(&unmoved);
+        slope(here, nominal, width, |step| {
+            let machine = self.repeated(step, end_shift)?;
+            let there = value(&machine);
+            (there == here || told(&machine) == expected).then_some(there)
+        })
+    }
+
+    /// The last step gone through again, once for all outputs.
+    fn repeated(&self, step: f64, end_shift: f64) -> Option<Rc<Machine>> {
+        let mut repetitions = self.repetitions.borrow_mut();
+        let repetition = repetitions.entry([step, end_shift].map(f64::to_bits));
+        let again = || self.machine.repeated(&self.rest, step, end_shift).ok();
+        repetition.or_insert_with(|| again().map(Rc::new)).clone()
     }
 }
 
@@ -117,36 +163,6 @@ impl Machine {
         self.replay_to_last_piece(&mut last, &mut |machine| add(machine, machine))?;
         add(&last, self)?;
         Ok(sum)
-    }
-
-    /// The derivative of an output along inputs of the drive.
-    fn difference(&self, direction: &[(usize, f64)], (value, nominal): Scaled<Self>) -> f64 {
-        let width =
-            |&(number, seed): &(usize, f64)| RELATIVE_WIDTH * self.scale(number) / seed.abs();
-        let width = direction.iter().map(width).fold(f64::INFINITY, f64::min);
-        if width == f64::INFINITY {
-            return 0.0;
-        }
-        let story = |machine: &Self, of: &Contacts| (machine.phase(), of.impacts, of.pierced);
-        let told = |machine: &Self| story(machine, machine.contacts());
-        let expected = match self.is_step_over() {
-            true => story(self, &Contacts::default()),
-            false => told(self),
-        };
-        // Energies count from the beginning of the last step. An event at its end is on the same side of that.
-        let ends = [0.0, self.event_rounding()];
-        let Some((unmoved, end_shift)) = ends.into_iter().find_map(|end_shift| {
-            let unmoved = self.repeated(direction, 0.0, end_shift).ok();
-            Some((unmoved.filter(|of| told(of) == expected)?, end_shift))
-        }) else {
-            return f64::NAN;
-        };
-        let here = value(&unmoved);
-        slope(here, nominal, width, |step| {
-            let machine = self.repeated(direction, step, end_shift).ok()?;
-            let there = value(&machine);
-            (there == here || told(&machine) == expected).then_some(there)
-        })
     }
 
     /// How much of an input of the drive is much.
