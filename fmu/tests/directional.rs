@@ -5,7 +5,7 @@ use softstop_testing::assert_near;
 use softstop_testing::tolerance::SOLVED;
 
 /// Outputs of drive and frame, and what a step tells of its contacts.
-const FURTHER: [&str; 11] = [
+pub const FURTHER: [&str; 11] = [
     "drive.angle",
     "drive.force",
     "drive.power",

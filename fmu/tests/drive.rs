@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::ffi::c_int;
 
 use crate::common::{OK, Unit};
+use crate::directional::FURTHER;
 use softstop_testing::assert_near;
 
 /// Differences of some hundred roundings.
@@ -354,18 +355,6 @@ fn impulse_of_a_period() {
     assert!(sums.1 > 5.0);
 }
 
-const NEW: [&str; 9] = [
-    "drive.angle",
-    "drive.force",
-    "drive.power",
-    "drive.work",
-    "frame.force",
-    "contact.peak",
-    "contact.impulse",
-    "impact.step.first.time",
-    "impact.step.hardest.velocity",
-];
-
 /// Derivatives by every input and by the start, over a step with impacts, plain and in pieces.
 #[test]
 fn derivatives_of_what_is_new() {
@@ -392,7 +381,7 @@ fn derivatives_of_what_is_new() {
             unit
         };
         let unit = run("", 0.0);
-        let names: Vec<_> = NEW.into_iter().chain(crate::common::OUTPUTS).collect();
+        let names: Vec<_> = FURTHER.into_iter().chain(crate::common::OUTPUTS).collect();
         for (known, seed) in knowns {
             let found = unit
                 .derivatives(&names, &[(known, seed)])
@@ -428,15 +417,15 @@ fn states_on_a_ramp() {
     assert_eq!(other.take_up(&unit.serialized()), OK);
     let by = [("initial.position", 1.0), ("drive.speed", 1.0)];
     let read = |unit: &Unit| {
-        let values = NEW.map(|name| unit.get(name).to_bits());
-        (values, unit.derivatives(&NEW, &by))
+        let values = FURTHER.map(|name| unit.get(name).to_bits());
+        (values, unit.derivatives(&FURTHER, &by))
     };
     assert_eq!(read(&unit), read(&other));
     for unit in [&unit, &other] {
         assert_eq!(unit.step(30.0, 5.0), OK);
     }
     assert_eq!(
-        NEW.map(|name| unit.get(name).to_bits()),
-        NEW.map(|name| other.get(name).to_bits())
+        FURTHER.map(|name| unit.get(name).to_bits()),
+        FURTHER.map(|name| other.get(name).to_bits())
     );
 }

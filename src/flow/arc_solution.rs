@@ -289,7 +289,7 @@ impl ArcSolution {
     /// The rate of the forcing per mass of a held mass in m/s^3, `elapsed` seconds after departure.
     pub(crate) fn forcing_rate_at_rest(&self, elapsed: f64) -> f64 {
         match &self.form {
-            Form::TaylorStep(segment) => value(&derivative(&segment.forcing), elapsed),
+            Form::TaylorStep(step) => value(&derivative(&step.forcing), elapsed),
             _ => {
                 let (amplitude, w) = (self.flow.amplitude, self.flow.frequency);
                 self.departure.forcing.rate() - amplitude * w * self.drive_at(elapsed).sin

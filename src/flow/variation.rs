@@ -59,7 +59,7 @@ impl ArcSolution {
         }
     }
 
-    /// The changes of the integral of the position from `from` to `elapsed`, where a course that began before is that of a
+    /// The changes of the integral of the position from `from` to `elapsed`, where an arc that began before is that of a
     /// held mass, and of that of the position times the rate of a force, which is linear in time unless the forcing is not.
     pub(crate) fn displacement_variation(
         &self,
@@ -68,13 +68,12 @@ impl ArcSolution {
         force: &Polynomial,
     ) -> (f64, f64) {
         match &self.form {
-            Form::TaylorStep(segment) if !segment.is_still() => {
-                let ([position, _], rate) =
-                    (segment.state_variation(by), segment.time_rate_series());
+            Form::TaylorStep(step) if !step.is_still() => {
+                let ([position, _], rate) = (step.state_variation(by), step.time_rate_series());
                 let mut sums = (0.0, 0.0);
-                for (sigma, weight) in gauss_nodes(segment.sigma_after(elapsed)) {
+                for (sigma, weight) in gauss_nodes(step.sigma_after(elapsed)) {
                     let moved = weight * value(&rate, sigma) * value(&position, sigma);
-                    let force_rate = force.shifted(segment.time_at_sigma(sigma)).rate();
+                    let force_rate = force.shifted(step.time_at_sigma(sigma)).rate();
                     sums = (sums.0 + moved, sums.1 + force_rate * moved);
                 }
                 sums

@@ -60,7 +60,7 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
         pulp::bytemuck::cast_slice_mut::<S::f64s, f64>(&mut self.registers)[lane] = value;
     }
 
-    /// The same number in every lane.
+    /// A vector that holds one number in every lane.
     #[inline(always)]
     pub fn like(self, value: f64) -> Self {
         Self::splat(self.simd, value)
