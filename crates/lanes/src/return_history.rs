@@ -26,78 +26,8 @@ use super::cycle::Cycle;
 use super::cycle_state::{Forcing, GuardCrossing};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::PhaseConstants;
-
-/// When returns of a lane are recorded, and how close they have to be for their limit to be extrapolated. Distances are of
-/// velocities in units of the first return's, and of times as angles of the drive in rad.
-struct ReturnSettings {
-    /// Drive periods from the beginning of a job to the first recording of returns, and from a failed attempt to the next one,
-    /// before the first growth.
-    periods_before_recording: f64,
-    first_pause_periods: f64,
-    /// Ratio of the length of each pause to that of the one before.
-    pause_growth: f64,
-    /// Most drive periods between two returns, and the largest difference from a whole number of them.
-    max_periods: f64,
-    max_time_offset: f64,
-    /// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return next
-    /// to the first.
-    max_recurrence_ratio: f64,
-    /// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
-    min_periods_left: f64,
-    /// Drive periods at the end of a job that are never extrapolated.
-    followed_last_periods: f64,
-    /// Largest distances between two returns from which the number of returns until they are close is predicted, and from which
-    /// their limit is extrapolated.
-    max_prediction_distance: f64,
-    max_extrapolation_distance: f64,
-    /// Largest last step of Newton's method, and the largest ratio of a step to the one before with which it goes on.
-    max_last_step: f64,
-    max_step_ratio: f64,
-}
-
-const SETTINGS: ReturnSettings = ReturnSettings {
-    periods_before_recording: 28.0,
-    first_pause_periods: 6.0,
-    pause_growth: 1.5,
-    max_periods: 4.0,
-    max_time_offset: 0.25,
-    max_recurrence_ratio: 0.3,
-    min_periods_left: 24.0,
-    followed_last_periods: 2.0,
-    max_prediction_distance: 0.3,
-    max_extrapolation_distance: 0.02,
-    max_last_step: 1e-7,
-    max_step_ratio: 0.3,
-};
-
-/// The state of a motion just after an impact, with time, phase and counts: a return, where it repeats the impact.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct PostImpactState {
-    pub position: f64,
-    pub velocity: f64,
-    /// Seconds into the drive period; drive periods left, this one included.
-    pub offset: f64,
-    pub left: f64,
-    /// cos and sin of the drive angle then, if known.
-    pub angle: Option<(f64, f64)>,
-    pub impacts: f64,
-    pub crossings: f64,
-    pub phase: f64,
-}
-
-impl PostImpactState {
-    /// The impact that leads to this state, as a crossing of a guard.
-    fn as_crossing(&self) -> GuardCrossing {
-        GuardCrossing {
-            position: self.position,
-            velocity: self.velocity,
-            velocity_after: self.velocity,
-            phase: self.phase as usize,
-            left: self.left,
-            offset: self.offset,
-        }
-    }
-}
+use super::post_impact_state::PostImpactState;
+use super::return_settings::SETTINGS;
 
 /// The recorded returns of one lane to an impact, its trial cycle, and what is known of their limit.
 #[derive(Debug, Default)]

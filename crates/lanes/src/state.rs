@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::job::Outcome;
 use super::lanes::{Lanes, Mask, Pair};
 use super::lowered_machine::LoweredMachine;
-use super::return_history::PostImpactState;
+use super::post_impact_state::PostImpactState;
 use super::sine_cosine::cos_sin;
 use softstop::Start;
 
