@@ -247,8 +247,8 @@ impl Phases {
         forward.into_iter().chain(backward).collect()
     }
 
-    /// True if a bounce that leaves a surface with a velocity in m/s cannot be told from none: lower than four units in the last place of the position, or as slow
-    /// as what the force brings about within the resolution of time.
+    /// True if a bounce that leaves a surface with a velocity in m/s cannot be told from none: lower than four units in the last
+    /// place of the position, or as slow as what the force brings about within the resolution of time.
     pub(crate) fn is_unresolved_bounce(
         &self,
         at: &Surface,

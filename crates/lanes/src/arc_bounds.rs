@@ -77,8 +77,8 @@ impl CycleArc {
         Some(passed)
     }
 
-    /// Bound on the second-order remainder at the crossing that ends the arc, from that at the crossing `before` the arc and from what the
-    /// linear map along the arc leaves out of the state.
+    /// Bound on the second-order remainder at the crossing that ends the arc, from that at the crossing `before` the arc and from
+    /// what the linear map along the arc leaves out of the state.
     pub fn remainder_at_exit(
         &self,
         before: &CrossingRemainder,

@@ -89,8 +89,8 @@ impl<'a> Rows<'a> {
         self.machine(row).scene
     }
 
-    /// Follows the motion of each row over whole drive periods, block by block once all machines are checked, each batch of the lanes with an observer that
-    /// `watch` makes for rows counted from this one on.
+    /// Follows the motion of each row over whole drive periods, block by block once all machines are checked, each batch of the
+    /// lanes with an observer that `watch` makes for rows counted from this one on.
     ///
     /// # Errors
     /// `MachineError` of a machine that cannot be, in its own units; `KeyboardInterrupt` after Ctrl-C.

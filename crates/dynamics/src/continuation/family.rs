@@ -1,4 +1,5 @@
-//! Families of scenes along parameters: any family, that of a machine along its own parameters, and a family at one value of its second.
+//! Families of scenes along parameters: any family, that of a machine along its own parameters, and a family at one value of its
+//! second.
 
 use std::fmt::Debug;
 

@@ -255,7 +255,8 @@ fn test_rates(
 }
 
 /// The normal of a border at a grazing orbit, up to a factor: -dw/dp of the drive frequency w at which the orbit
-/// grazes, solved with the drive angle of the touch from rest at the surface to rest there. What moves along the frequency stands last among the parameters.
+/// grazes, solved with the drive angle of the touch from rest at the surface to rest there. What moves along the frequency stands
+/// last among the parameters.
 fn grazing_rates(
     scene: &CheckedScene,
     periods: u64,

@@ -1,4 +1,5 @@
-//! The stable z = 1 motion of a scene with the highest before-impact velocity, searched from scratch: from many starts, and from a lattice of impacts.
+//! The stable z = 1 motion of a scene with the highest before-impact velocity, searched from scratch: from many starts, and from
+//! a lattice of impacts.
 
 use std::slice::from_ref;
 

@@ -158,8 +158,8 @@ fn is_off_branch(
     is_inside && own().is_ok_and(|own| !is_same_state(&own, point.state(), scene))
 }
 
-/// The frequencies at which z = 1 motions are searched for all stable ranges: g0 of grazing, beside both grazings, the [`SEARCH_ROWS`], and beside the
-/// lowest.
+/// The frequencies at which z = 1 motions are searched for all stable ranges: g0 of grazing, beside both grazings, the
+/// [`SEARCH_ROWS`], and beside the lowest.
 fn search_frequencies(scene: &Scene, grazing: Option<(Option<f64>, f64)>) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = SEARCH_ROWS.into_iter().flat_map(|(low, high, count)| {
