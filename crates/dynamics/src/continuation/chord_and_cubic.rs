@@ -76,8 +76,8 @@ impl<'a, E: Equations> CurveCubic<'a, E> {
         let [begins, ends] = &self.directions;
         let far = self.way.norm() * (1.0 + (ends - begins).norm_squared() / 24.0);
         let (left, smooth) = (1.0 - share, share * share * (3.0 - 2.0 * share));
-        let apply_beyond_limit = (begins * left - ends * share) * (far * share * left);
-        self.from + &self.way * smooth + apply_beyond_limit
+        let bend = (begins * left - ends * share) * (far * share * left);
+        self.from + &self.way * smooth + bend
     }
 
     /// The node of the curve near the cubic at this share of the way.

@@ -120,15 +120,15 @@ impl<'a, E: Equations> Stepper<'a, E> {
         let mean = way / far;
         let (ahead, share) = (&self.direction - mean, self.step / far);
         let cubic = 2.0 * &ahead - &turn;
-        let apply_beyond_limit = self.step * share * ((&ahead + &cubic) + share * cubic);
+        let bend = self.step * share * ((&ahead + &cubic) + share * cubic);
         let leans = self.accuracy == Accuracy::Quick
             || self.equations.needs_close_guess(&self.node.here.point);
         let along = if leans {
             0.0
         } else {
-            apply_beyond_limit.dot(&self.direction)
+            bend.dot(&self.direction)
         };
-        straight + apply_beyond_limit - along * &self.direction
+        straight + bend - along * &self.direction
     }
 
     /// Takes a step: goes to its node, with the next length.
