@@ -1,13 +1,11 @@
 //! A motion from phase to phase, for methods that find the guards' crossings themselves.
 
-use super::bounce_train::BounceTrain;
-use super::reset::ResetContext;
-use super::{Impact, Start};
+use super::observer::{Crossing, Observer};
+use super::{Impact, Motion, Start};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::{FoundCrossing, Guard};
-use crate::flow::Polynomial;
-use crate::phases::{Mode, Phase, PhaseId};
+use crate::phases::{Phase, PhaseId};
 
 /// Most crossings within one instant: a method that makes more does not get on.
 const MAX_CROSSINGS_AT_ONCE: u32 = 1000;
@@ -19,15 +17,22 @@ const MAX_CROSSINGS_AT_ONCE: u32 = 1000;
 /// 2^-26 of a drive period.
 #[derive(Debug, Clone)]
 pub struct PhaseTracker {
-    scene: CheckedScene,
-    mode: Mode,
-    /// Guards that let go a mass that is held.
-    releases: Vec<Guard>,
+    motion: Motion,
+    /// The guards that end the present phase, or let go a mass that is held.
+    guards: Vec<Guard>,
     time: f64,
-    state: Start,
-    bounce_train: BounceTrain,
     at_once: u32,
     impacts: Vec<Impact>,
+}
+
+/// The impact of a crossing, if it is one.
+#[derive(Default)]
+struct ImpactVelocity(Option<f64>);
+
+impl Observer for ImpactVelocity {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 = crossing.impact_velocity();
+    }
 }
 
 impl PhaseTracker {
@@ -36,22 +41,14 @@ impl PhaseTracker {
     /// # Errors
     /// [`MotionError`] if the start makes no sense.
     pub fn new(scene: &CheckedScene, start: Start) -> Result<Self, MotionError> {
-        scene.motion(start)?;
-        let mut walk = Self {
-            scene: scene.clone(),
-            mode: Mode::Moving(PhaseId::FREE),
-            releases: Vec::new(),
+        let motion = scene.motion(start)?;
+        Ok(Self {
+            guards: motion.present_guards().into_owned(),
+            motion,
             time: 0.0,
-            state: start,
-            bounce_train: BounceTrain::default(),
             at_once: 0,
             impacts: Vec::new(),
-        };
-        let Start { position, velocity } = start;
-        let forcing = walk.forcing_per_mass();
-        let mode = scene.phases().mode_at(position, velocity, forcing, true);
-        walk.enter_mode(mode, forcing);
-        Ok(walk)
+        })
     }
 
     /// Time in s of the last crossing, or 0.
@@ -61,22 +58,22 @@ impl PhaseTracker {
 
     /// The state right after the last crossing.
     pub fn state(&self) -> Start {
-        self.state
+        self.motion.state()
     }
 
     /// The phase whose law holds after the last crossing; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
-        self.phase_id().map(|phase| &self.scene.phases()[phase])
+        self.motion.phase()
     }
 
     /// The id of the phase.
     pub fn phase_id(&self) -> Option<PhaseId> {
-        self.mode.phase()
+        self.motion.mode().phase()
     }
 
     /// The guards that end the present phase. While the mass is held they ask for the forcing alone.
     pub fn guards(&self) -> &[Guard] {
-        self.phase().map_or(&self.releases, |phase| &phase.guards)
+        &self.guards
     }
 
     /// The impacts so far.
@@ -97,81 +94,40 @@ impl PhaseTracker {
         let elapsed = time - self.time;
         self.time = time;
         self.check_progress(elapsed)?;
-        let forcing = self.forcing_per_mass();
-        let (state, mode) = match self.mode {
-            Mode::Moving(phase) => {
-                let found = FoundCrossing {
-                    elapsed,
-                    guard,
-                    position: before.position,
-                    velocity: before.velocity,
-                };
-                self.reset(phase, &found, forcing)
-            }
-            Mode::Held(hold) | Mode::Chattering(hold) => (self.state, hold.after_release(guard)),
+        let before = match self.phase() {
+            Some(_) => before,
+            None => self.state(),
         };
-        self.state = state;
-        self.enter_mode(mode, forcing);
+        let motion = &mut self.motion;
+        let found = FoundCrossing {
+            elapsed: motion
+                .clock
+                .elapsed(motion.start, motion.clock.instant(time)),
+            guard,
+            position: before.position,
+            velocity: before.velocity,
+        };
+        let mut impact = ImpactVelocity::default();
+        motion.pass_crossing(found, &mut impact);
+        if let Some(bounces) = motion.course.chatter() {
+            motion.end_step(bounces.duration, &mut ());
+        }
+        self.guards = motion.present_guards().into_owned();
+        let impact = impact.0.map(|velocity| Impact { time, velocity });
+        self.impacts.extend(impact);
         Ok(())
-    }
-
-    /// State and mode after a crossing out of a phase, by the rules of [`ResetContext`].
-    fn reset(&mut self, phase: PhaseId, found: &FoundCrossing, forcing: f64) -> (Start, Mode) {
-        if let Some(surface) = self.scene.phases().endless_surface(phase, found.guard) {
-            self.bounce_train.count_crossing(surface, found.velocity);
-        }
-        let moved = self.state.velocity != 0.0 || found.elapsed > 0.0;
-        let force = Polynomial::default();
-        let ground = ResetContext {
-            phases: self.scene.phases(),
-            fed: true,
-            pierced: false,
-            threshold: self.bounce_train.rest_threshold(),
-            force: &force,
-            period: self.scene.period(),
-        };
-        let landing = ground.reset(phase, found, forcing, moved);
-        if landing.kind.is_impact() {
-            let (time, velocity) = (self.time, found.velocity);
-            self.impacts.push(Impact { time, velocity });
-        }
-        match landing.mode {
-            Mode::Chattering(hold) => {
-                let position = landing.state.position;
-                let mode = self.scene.phases().mode_from_rest(hold, position, forcing);
-                (Start::new(position, 0.0), mode)
-            }
-            mode => (landing.state, mode),
-        }
-    }
-
-    fn enter_mode(&mut self, mode: Mode, forcing: f64) {
-        let releases = |hold| {
-            self.scene
-                .phases()
-                .release_guards(hold, self.state.position, forcing)
-        };
-        self.releases = mode.sticking().map(releases).unwrap_or_default();
-        self.mode = mode;
-    }
-
-    /// Forcing of the drive per mass in m/s^2 at the last crossing.
-    fn forcing_per_mass(&self) -> f64 {
-        let drive = self.scene.excitation;
-        let angle = drive.frequency * self.time + drive.reduced_phase();
-        drive.amplitude / self.scene.mass * angle.cos()
     }
 
     /// Refuses more crossings at one instant than a method gets on with.
     fn check_progress(&mut self, elapsed: f64) -> Result<(), MotionError> {
-        let instant = elapsed <= 4.0 * f64::EPSILON * self.time.max(self.scene.period());
+        let instant = elapsed <= 4.0 * f64::EPSILON * self.time.max(self.motion.clock.period());
         self.at_once = if instant { self.at_once + 1 } else { 0 };
         if self.at_once <= MAX_CROSSINGS_AT_ONCE {
             return Ok(());
         }
         Err(MotionError::Stalled {
             time: self.time,
-            position: self.state.position,
+            position: self.state().position,
         })
     }
 }

@@ -4,10 +4,8 @@ use super::motion::Motion;
 use super::observer::CrossingKind;
 use super::start::Start;
 use crate::events::FoundCrossing;
-use crate::flow::{Chatter, Polynomial, PressingForces};
-use crate::phases::{
-    Beyond, Exit, Mode, PhaseId, Phases, RestThreshold, Sticking, Surface, SurfaceId,
-};
+use crate::flow::{Chatter, PressingForces};
+use crate::phases::{Beyond, Exit, Mode, PhaseId, Phases, Sticking, Surface, SurfaceId};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded stop, and in too many impacts for lanes.
@@ -34,19 +32,6 @@ impl Reset {
 }
 
 impl Phases {
-    /// The surface that a guard of a phase watches, if bounces on it may go on for ever.
-    pub(crate) fn endless_surface(&self, phase: PhaseId, guard: usize) -> Option<SurfaceId> {
-        let surface = match self[phase].exits[guard] {
-            Exit::Forward(surface) | Exit::Backward(surface) => surface,
-            Exit::Reversal { .. } | Exit::Switch(_) => return None,
-        };
-        let endless = match self[surface].beyond {
-            Beyond::Phase(_) => true,
-            Beyond::Wall { restitution } => restitution > MAX_RESTITUTION,
-        };
-        endless.then_some(surface)
-    }
-
     /// The velocity of a crossing out of a phase: rounding may turn that of a touch the other way.
     #[inline]
     pub(super) fn crossing_velocity(&self, phase: PhaseId, found: &FoundCrossing) -> f64 {
@@ -64,15 +49,10 @@ impl Phases {
 }
 
 impl Motion {
-    /// The surface that a guard watches, if bounces on it may go on for ever.
-    pub(super) fn endless_surface(&self, guard: usize) -> Option<SurfaceId> {
-        self.phases.endless_surface(self.mode.phase()?, guard)
-    }
-
-    /// State and mode right after a crossing; `moved` as for [`ResetContext::reset`].
+    /// State, mode and kind right after a crossing; `moved`: the mass is not back at once where it left rest.
     pub(super) fn reset_after(&self, found: &FoundCrossing, forcing: f64, moved: bool) -> Reset {
         match self.mode {
-            Mode::Moving(phase) => self.reset_context().reset(phase, found, forcing, moved),
+            Mode::Moving(phase) => self.reset_out_of(phase, found, forcing, moved),
             Mode::Held(hold) | Mode::Chattering(hold) => {
                 let mode = hold.after_release(found.guard);
                 Reset::new(found.position, 0.0, mode, CrossingKind::Release)
@@ -80,15 +60,17 @@ impl Motion {
         }
     }
 
-    fn reset_context(&self) -> ResetContext<'_> {
-        ResetContext {
-            phases: &self.phases,
-            fed: self.fed,
-            pierced: self.pierced,
-            threshold: self.bounce_train.rest_threshold(),
-            force: self.force.on_arc(),
-            period: self.clock().period(),
-        }
+    /// The surface that a guard watches, if bounces on it may go on for ever.
+    pub(super) fn endless_surface(&self, guard: usize) -> Option<SurfaceId> {
+        let surface = match self.phase()?.exits[guard] {
+            Exit::Forward(surface) | Exit::Backward(surface) => surface,
+            Exit::Reversal { .. } | Exit::Switch(_) => return None,
+        };
+        let endless = match self.phases[surface].beyond {
+            Beyond::Phase(_) => true,
+            Beyond::Wall { restitution } => restitution > MAX_RESTITUTION,
+        };
+        endless.then_some(surface)
     }
 
     /// Updates whether the sheet-metal strip is cut through in this stroke; a new impact begins a new stroke.
@@ -99,26 +81,9 @@ impl Motion {
             self.pierced = false;
         }
     }
-}
 
-/// What the rules of a reset need to know of a motion.
-pub(crate) struct ResetContext<'a> {
-    pub phases: &'a Phases,
-    /// A strip lies beyond the clearance.
-    pub fed: bool,
-    /// The strip of this stroke is pierced.
-    pub pierced: bool,
-    /// The bounces that count as rest.
-    pub threshold: RestThreshold,
-    /// The external force in N from now on.
-    pub force: &'a Polynomial,
-    /// Drive period in s.
-    pub period: f64,
-}
-
-impl ResetContext<'_> {
-    /// State and mode right after a crossing out of a phase; `moved`: it is not back at once where it left rest.
-    pub(crate) fn reset(
+    /// State, mode and kind right after a crossing out of a phase.
+    fn reset_out_of(
         &self,
         phase: PhaseId,
         found: &FoundCrossing,
@@ -157,9 +122,13 @@ impl ResetContext<'_> {
 
     /// The reset where a surface is passed.
     fn pass_surface(&self, at: &Surface, velocity: f64, forcing: f64, forward: bool) -> Reset {
-        let mode = self
-            .phases
-            .mode_at_surface(at, velocity, forcing, self.fed, self.threshold);
+        let mode = self.phases.mode_at_surface(
+            at,
+            velocity,
+            forcing,
+            self.fed,
+            self.bounce_train.rest_threshold(),
+        );
         let held = matches!(mode, Mode::Held(_));
         let kind = CrossingKind::Surface {
             forward,
@@ -186,12 +155,12 @@ impl ResetContext<'_> {
                 && self
                     .phases
                     .is_unresolved_bounce(at, speed, forcing, self.fed);
-            speed < self.threshold.slowest || endless
+            speed < self.bounce_train.rest_threshold().slowest || endless
         };
         if speed == 0.0 || (rests && faint()) {
             return Reset::new(position, 0.0, held, kind);
         }
-        let chatter = self.chatter(at, speed, forcing, restitution);
+        let chatter = self.sum_bounces(at, speed, forcing, restitution);
         let mode = match chatter {
             Some(_) => Mode::Chattering(hold),
             None => Mode::Moving(self.phases.pressing_phase(at.before, position, velocity)),
@@ -203,8 +172,14 @@ impl ResetContext<'_> {
     }
 
     /// The bounces that follow a rebound, where they can be summed.
-    fn chatter(&self, at: &Surface, speed: f64, forcing: f64, restitution: f64) -> Option<Chatter> {
-        let phases = self.phases;
+    fn sum_bounces(
+        &self,
+        at: &Surface,
+        speed: f64,
+        forcing: f64,
+        restitution: f64,
+    ) -> Option<Chatter> {
+        let phases = &*self.phases;
         let (out, back) = (at.before, phases.at_velocity(at.before, at.side));
         let rest = |phase| at.side * phases.acceleration(phase, at.position, 0.0, forcing);
         let slopes = [out, back].map(|phase| phases[phase].force_derivatives(at.position, 0.0));
@@ -215,10 +190,10 @@ impl ResetContext<'_> {
         let pressing = PressingForces {
             accelerations: (rest(out), rest(back)),
             drive_rate: drive,
-            forcing: self.force.per_mass(0.0, phases.mass),
+            forcing: self.force.on_arc().per_mass(0.0, phases.mass),
             damping: largest(slopes.map(|slope| slope.1)),
             stiffness: largest(slopes.map(|slope| slope.0)),
-            period: self.period,
+            period: self.clock().period(),
             grain: two_laws.then_some(f64::EPSILON * at.position.abs()),
         };
         let chatter = Chatter::from_speed(speed, restitution, &pressing)?;
