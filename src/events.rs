@@ -9,6 +9,7 @@ mod first_rise;
 mod guard;
 mod guard_ends;
 mod node_derivatives;
+mod rise_verdict;
 mod single_rise;
 mod step_crossing;
 

@@ -1,10 +1,12 @@
 //! The exact integrator: from crossing to crossing.
 
 mod advance;
+mod arc;
 mod bounce_train;
 mod checkpoint;
 mod clock;
 mod contacts;
+mod crossing;
 mod effort;
 mod external_force;
 mod motion;
@@ -21,13 +23,15 @@ mod stop_at_crossing;
 mod tallies;
 mod work;
 
+pub use arc::Arc;
 pub use clock::{Clock, Instant};
 pub use contacts::Contacts;
 pub(crate) use contacts::contact_peak;
+pub use crossing::{Crossing, CrossingKind, Impact};
 pub use effort::{Effort, Evaluations};
 pub(crate) use external_force::force_from_derivatives;
 pub use motion::Motion;
-pub use observer::{Arc, Crossing, CrossingKind, Impact, Observer};
+pub use observer::Observer;
 pub use outputs::{Energy, Rate, Rates, Sample};
 pub use phase_tracker::PhaseTracker;
 pub use reset::MAX_RESTITUTION;

@@ -34,6 +34,7 @@
 pub mod budget;
 mod checked_scene;
 mod error;
+mod error_message;
 mod events;
 mod expression;
 mod flow;
@@ -43,7 +44,7 @@ pub mod internals;
 mod largest_value;
 mod machine;
 mod phases;
-mod root;
+mod root_finding;
 mod scene;
 mod tangent;
 mod trajectory;

@@ -6,6 +6,7 @@ mod line_numbers;
 mod machine_ties;
 mod misspelt_keys;
 mod read_file;
+mod read_table;
 mod units_and_labels;
 mod write_file;
 

@@ -4,16 +4,16 @@
 //! is dry friction, another for the way back. Nothing behind this module asks which stop it was.
 
 mod build_phases;
-mod id;
 mod layer_plan;
+mod layer_stack;
 mod mode;
-mod stack;
+mod phase_id;
 mod stop_energy;
 
-pub use id::{PhaseId, SurfaceId};
+use layer_stack::{Layer, Stack};
 pub(crate) use mode::RestThreshold;
 pub use mode::{Mode, Sticking};
-use stack::{Layer, Stack};
+pub use phase_id::{PhaseId, SurfaceId};
 pub use stop_energy::{SpringEnergy, StopEnergy};
 
 use std::ops::Index;

@@ -1,17 +1,16 @@
 //! The scene: a machine as plain, validated data.
 
-mod allowed;
-mod dimensional_scale;
+mod allowed_range;
 mod parameter;
 mod ratios;
 mod scales;
 mod stop;
 mod strip;
 mod ties;
+mod units;
 mod validate;
 
-pub use allowed::Allowed;
-pub use dimensional_scale::Units;
+pub use allowed_range::Allowed;
 pub use parameter::{Dimension, Parameter, ParameterInfo};
 pub use ratios::Ratios;
 pub use scales::{MIN_SCALE_STIFFNESS, Scales};
@@ -20,6 +19,7 @@ pub use stop::{Below, Release, RigidStop, Slope, Stop, Wall, force_of};
 pub use strip::Strip;
 pub use ties::Ties;
 pub(crate) use ties::{Quantity, Tie};
+pub use units::Units;
 pub use validate::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,10 @@
 //! The scan of an arc for its first crossing, window by window.
 
-use super::first_rise::{GuardPoint, GuardPolynomial, RiseVerdict, earliest_rise, judge_interval};
+use super::first_rise::{GuardPolynomial, earliest_rise};
 use super::guard::Guard;
 use super::guard_ends::GuardEnds;
 use super::node_derivatives::NodeDerivatives;
+use super::rise_verdict::{GuardPoint, RiseVerdict, judge_interval};
 use super::single_rise::locate_single_rise;
 use super::step_crossing::crossing_on_step;
 use super::{FoundCrossing, NextEvent};

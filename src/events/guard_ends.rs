@@ -1,8 +1,8 @@
 //! A guard at both ends of a scan window, and what its values there prove of all the window.
 
-use super::first_rise::GuardPoint;
 use super::guard::Guard;
 use super::node_derivatives::NodeDerivatives;
+use super::rise_verdict::GuardPoint;
 use crate::flow::{ScanNode, ScanWindow};
 
 /// Value and first time derivative of a guard at both ends of a scan window.

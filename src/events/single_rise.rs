@@ -3,9 +3,10 @@
 //! The jets of the nearer node tell about where it is; a state evaluated there lies so close to it that a
 //! short Taylor polynomial is exact.
 
-use super::first_rise::{GuardPoint, guess_rise};
+use super::first_rise::guess_rise;
 use super::guard::Guard;
 use super::node_derivatives::NodeDerivatives;
+use super::rise_verdict::GuardPoint;
 use crate::flow::{ArcSolution, ScanNode};
 
 /// Share of the reach of a linear law (see [`LinearLaw`](crate::flow::LinearLaw)) over which a polynomial of degree 5

@@ -4,14 +4,12 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
+use super::change_near_start::change_near_start;
 use super::linear_law::MAX_DIGIT_LOSS;
-use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
-use super::scan_node::ScanNode;
 use super::series::{derivative, value};
-use super::taylor_polynomials::linear_forcing_series;
 use super::zero_state_responses::ZeroStateResponses;
-use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorPolynomials, TaylorStep};
+use super::{Chatter, Departure, DriveAngle, LinearLaw, PowerLaw, TaylorStep};
 
 /// The exact motion of one arc under one law, from its departure on.
 #[derive(Debug, Clone, PartialEq)]
@@ -222,20 +220,6 @@ impl ArcSolution {
         (forcing.value() + forcing.rate() * elapsed, forcing.rate())
     }
 
-    /// Taylor polynomials of this motion about a scan node.
-    pub(crate) fn expand(&self, node: &ScanNode) -> TaylorPolynomials {
-        let forcing =
-            linear_forcing_series(&self.flow, node.drive, self.linear_forcing_at(node.elapsed));
-        let taylor = TaylorPolynomials::expand(&self.flow, (node.position, node.velocity), forcing);
-        match self.departure.acceleration {
-            _ if self.is_held() => taylor.held_at(node.position),
-            Some(acceleration) if node.elapsed == 0.0 => {
-                taylor.with_acceleration(&self.flow, acceleration)
-            }
-            _ => taylor,
-        }
-    }
-
     /// True if this motion is sure never to leave the range of floating-point numbers.
     pub(crate) fn is_bounded(&self) -> bool {
         match self.form {
@@ -249,22 +233,6 @@ impl ArcSolution {
             }
             Form::Held | Form::Chatter(_) => true,
             Form::Responses | Form::TaylorStep(_) => false,
-        }
-    }
-
-    /// Bounds in m on the position from `node` to the end of time, infinite where it may grow.
-    pub(crate) fn position_range(&self, node: &ScanNode) -> (f64, f64) {
-        match self.form {
-            Form::Held => (node.position, node.position),
-            Form::Particular { particular, .. } if particular.slope == 0.0 => {
-                let (y, rate) = node.deviation;
-                let steady = particular.cosine.hypot(particular.sine);
-                widened_interval(
-                    particular.offset,
-                    steady + self.flow.modes.amplitude_bound(y, rate),
-                )
-            }
-            _ => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 
@@ -305,7 +273,7 @@ impl ArcSolution {
 }
 
 /// The interval about `centre`, widened by more than the rounding of its ends.
-fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
+pub(super) fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
     let slack = 1e-12 * (centre.abs() + radius);
     (centre - radius - slack, centre + radius + slack)
 }

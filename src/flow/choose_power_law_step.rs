@@ -1,6 +1,6 @@
 //! Chooses the form of a Taylor step under a power law: in time, in regularised time, on the slow manifold, or without that law.
 
-use super::convergence::{convergence_reach, leading_convergence_reach};
+use super::convergence_reach::{convergence_reach, leading_convergence_reach};
 use super::power_law::PowerLaw;
 use super::series::{majorant, value};
 use super::slow_manifold::SlowEquation;

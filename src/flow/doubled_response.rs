@@ -6,7 +6,7 @@ use nalgebra::{Matrix4x2, SMatrix, SVector, Vector4};
 
 use super::LinearLaw;
 use super::departure::Departure;
-use super::modes::Modes;
+use super::free_motion::Modes;
 use super::parameter_response::{ParameterResponse, StateAndSupply};
 
 /// The response of a linear law at one time. Columns: to a start with position 1, to one with velocity 1, and from rest

@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 
 use super::drive_angle::DriveAngle;
-use super::modes::Modes;
+use super::free_motion::Modes;
 
 /// Largest factor by which a particular solution may exceed the motion: so much accuracy its cancellation costs.
 pub(super) const MAX_DIGIT_LOSS: f64 = 64.0;

@@ -4,10 +4,10 @@
 use nalgebra::{Matrix3x2, Vector3};
 
 use super::arc_solution::{ArcSolution, Form};
-use super::gauss::gauss_nodes;
+use super::gauss_quadrature::gauss_nodes;
 use super::series::{Series, ZERO, convolve, product, value};
 use super::taylor_step::TaylorStep;
-use super::variation::VariationalEquation;
+use super::variational_equation::VariationalEquation;
 
 /// Changes at one time of an arc: of position in m, of velocity in m/s, and of the integral of velocity times cos(drive
 /// angle) in m, which is proportional to the work that the drive supplies.

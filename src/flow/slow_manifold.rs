@@ -10,7 +10,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::budget;
 
-use super::modes::Modes;
+use super::free_motion::Modes;
 use super::power_law::PowerLaw;
 use super::series::{Series, convolve, derivative, power_series};
 use super::taylor_polynomials::DEGREE;

@@ -1,7 +1,9 @@
 //! Taylor steps under a power law in regularised time, at its face, and on a sphere throughout.
 
 use super::choose_power_law_step::span_without_power_law;
-use super::convergence::{convergence_reach, leading_convergence_reach, sphere_convergence_reach};
+use super::convergence_reach::{
+    convergence_reach, leading_convergence_reach, sphere_convergence_reach,
+};
 use super::polynomial::HIGHEST_ORDER;
 use super::power_law::PowerLaw;
 use super::series::{PowerRecurrence, ReversedSeries, Series, ZERO, convolve, majorant, value};

@@ -8,7 +8,7 @@
 //!
 //! With w = d^n, d w' = n d' w; the product d' w in it is the one that the dissipation of the power law needs, too.
 
-use super::convergence::{
+use super::convergence_reach::{
     dense_convergence_reach, leading_convergence_reach, reach_below_rounding,
 };
 use super::paired_products::Products;

@@ -4,9 +4,9 @@ use nalgebra::Complex;
 
 use super::arc_solution::{ArcSolution, Form};
 use super::drive_angle::DriveAngle;
-use super::gauss::gauss_nodes;
+use super::gauss_quadrature::gauss_nodes;
 use super::particular_solution::ParticularSolution;
-use super::scan_node::ScanNode;
+use super::scan_nodes::ScanNode;
 use super::series::{ZERO, integral_of_product, value};
 use super::taylor_step::TaylorStep;
 

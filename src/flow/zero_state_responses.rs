@@ -4,7 +4,7 @@
 
 use nalgebra::Vector2;
 
-use super::modes::Modes;
+use super::free_motion::Modes;
 use crate::budget;
 
 /// Responses from rest (position, velocity) of a linear law to the forces 1, t, cos(w t) and sin(w t) at one time.

@@ -4,10 +4,12 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
+use super::arc::Arc;
 use super::clock::Instant;
+use super::crossing::{Crossing, CrossingKind};
 use super::effort;
 use super::motion::Motion;
-use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use super::observer::Observer;
 use super::reset::Reset;
 use super::start::Start;
 use crate::budget;

@@ -1,8 +1,9 @@
 //! The checkpoint of a running machine: where its last advance began, how to go back there, and that advance gone through again.
 
+use super::arc::Arc;
 use super::clock::{Clock, Instant};
 use super::motion::Motion;
-use super::observer::{Arc, Observer};
+use super::observer::Observer;
 use super::simulation::{Checkpoint, Simulation};
 use super::tallies::Counts;
 use super::work::Work;

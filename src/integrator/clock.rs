@@ -55,6 +55,11 @@ impl Clock {
         self.period
     }
 
+    /// Time in s that is too short to tell two instants apart.
+    pub(super) fn resolution(&self) -> f64 {
+        64.0 * f64::EPSILON * self.period()
+    }
+
     /// The instant `time` seconds after time 0.
     pub fn instant(&self, time: f64) -> Instant {
         self.after(Self::at_cycle(0), time)

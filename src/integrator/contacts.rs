@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::arc::Arc;
 use super::clock::{Clock, Instant};
-use super::observer::{Arc, Crossing, CrossingKind, Impact, Observer};
+use super::crossing::{Crossing, CrossingKind, Impact};
+use super::observer::Observer;
 use super::simulation::Simulation;
 use super::start::Start;
 use crate::error::MotionError;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc as Shared;
 
+use super::arc::Arc;
 use super::bounce_train::BounceTrain;
 use super::clock::{Clock, Instant};
 use super::external_force::Force;
-use super::observer::Arc;
 use super::start::Start;
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;

@@ -1,11 +1,13 @@
 //! What a running machine shows, and the rates of that: how it goes on from the present time.
 
-use super::observer::Impact;
+use std::f64::consts::TAU;
+
+use super::crossing::Impact;
 use super::simulation::Simulation;
 use super::start::Start;
 use crate::events::Guard;
 use crate::flow::DriveAngle;
-use crate::phases::PhaseKind;
+use crate::phases::{Mode, PhaseKind};
 
 /// Outputs at the present time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,6 +81,22 @@ impl Simulation {
             force.rate() - amplitude * w * sin,
             force.derivatives()[2] - amplitude * w * w * cos,
         )
+    }
+
+    /// The drive angle in rad; it begins anew below 2 pi where frequency or phase are set.
+    pub fn drive_angle(&self) -> f64 {
+        TAU.mul_add(self.motion.now().cycles, self.reduced_drive_angle())
+    }
+
+    /// The drive angle in rad without the whole turns since it began, which would take digits of it.
+    pub fn reduced_drive_angle(&self) -> f64 {
+        let (clock, now) = (self.motion.clock(), self.motion.now());
+        self.scene.excitation.frequency * now.offset + clock.phase
+    }
+
+    /// True while bounces on a rigid stop are summed up to their end.
+    pub fn is_chattering(&self) -> bool {
+        matches!(self.motion.mode, Mode::Chattering(_))
     }
 
     /// Impacts since the start: crossings of a clearance towards its stop.

@@ -1,7 +1,7 @@
 //! The reset at a crossing: state, mode and kind right after it.
 
+use super::crossing::CrossingKind;
 use super::motion::Motion;
-use super::observer::CrossingKind;
 use super::start::Start;
 use crate::events::FoundCrossing;
 use crate::flow::{Chatter, PressingForces};

@@ -4,7 +4,7 @@ use super::motion::Motion;
 use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;
 use crate::events::{FoundCrossing, Guard, NextEvent};
-use crate::phases::{Mode, Phase};
+use crate::phases::Phase;
 
 impl Motion {
     /// The guards that end the present law, each with its value in the present state.
@@ -79,10 +79,5 @@ impl Simulation {
         self.motion.mode = of.motion.mode;
         self.motion.begin_in_state(self.motion.state());
         self.motion.stand_before_passed_guard();
-    }
-
-    /// True while bounces on a rigid stop are summed up to their end.
-    pub fn is_chattering(&self) -> bool {
-        matches!(self.motion.mode, Mode::Chattering(_))
     }
 }

@@ -1,14 +1,15 @@
 //! A machine that runs on: the motion with its tallies, its inputs and its tunable parameters.
 
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
 use super::Observer;
 use super::clock::{Clock, Instant};
+use super::crossing::Impact;
 use super::external_force::force_from_derivatives;
 use super::motion::Motion;
-use super::observer::Impact;
 use super::start::InitialConditions;
 use super::tallies::{Counts, Tallies};
 use crate::checked_scene::CheckedScene;
@@ -100,63 +101,6 @@ impl Simulation {
         self.watch_before(until, None, observer)
     }
 
-    /// Advances as [`Simulation::watch`], but stops right before the first crossing that does not happen before the time
-    /// `halt` in s; [`Simulation::cross`] lets it happen. One that is after `until` by rounding alone counts as before it.
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
-    pub fn watch_before(
-        &mut self,
-        until: f64,
-        halt: Option<f64>,
-        observer: &mut dyn Observer,
-    ) -> Result<ControlFlow<()>, MotionError> {
-        self.check_reach(until)?;
-        let clock = *self.motion.clock();
-        let instant = clock.instant(until - self.epoch);
-        let before = self.motion.now();
-        let (mut end, mut last, mut stop) = (instant, until, None);
-        if let Some(halt) = halt {
-            let rounding = self.rounding_at(until);
-            (end, last) = (clock.after(instant, rounding), until + rounding);
-            stop = Some(clock.instant(halt - rounding - self.epoch));
-        }
-        // Equal times may be written as instants that differ in the last digit.
-        if instant <= before || self.motion.advance_if_clear(end)? {
-            if halt.is_some() && instant > before {
-                self.motion.now = instant;
-            }
-            self.checkpoint = Checkpoint::OnArc(before);
-            self.now = until;
-            return Ok(ControlFlow::Continue(()));
-        }
-        let origin = CheckpointState {
-            motion: self.motion.clone(),
-            counts: self.tallies.counts,
-            now: self.now,
-        };
-        let origin = Box::write(Box::new_uninit(), origin);
-        let mut observers = (&mut self.tallies, observer);
-        match self.motion.watch_before(end, stop, &mut observers) {
-            Ok(flow) => {
-                self.checkpoint = Checkpoint::Before(origin);
-                self.now = if flow.is_continue() {
-                    if halt.is_some() && instant > self.motion.start {
-                        self.motion.now = instant;
-                    }
-                    until
-                } else {
-                    self.time_of(self.motion.now()).clamp(self.now, last)
-                };
-                Ok(flow)
-            }
-            Err(error) => {
-                (self.motion, self.tallies.counts) = (origin.motion, origin.counts);
-                Err(error)
-            }
-        }
-    }
-
     /// The absolute time in s of an instant since the frequency and phase of the drive were last set.
     pub fn time_of(&self, instant: Instant) -> f64 {
         self.epoch + self.motion.clock().time(instant)
@@ -199,6 +143,43 @@ impl Simulation {
         Ok(())
     }
 
+    /// Takes another drive and another external force, by its derivatives as in [`Simulation::set_force`], from now on: of
+    /// this amplitude in N and frequency in rad/s, at this angle in rad. Phase, latched strip and bounces in a row stay as
+    /// they are. The scene's own phase of the drive, which counts from time 0, is left alone.
+    ///
+    /// # Errors
+    /// [`MotionError::NotFinite`], [`MotionError::Scene`] if amplitude or frequency make no valid scene, and those of
+    /// [`Simulation::set_force`]; nothing is changed then.
+    pub fn set_drive(
+        &mut self,
+        amplitude: f64,
+        frequency: f64,
+        angle: f64,
+        force: &[f64],
+    ) -> Result<(), MotionError> {
+        let force = force_from_derivatives(force)?;
+        if !angle.is_finite() {
+            return Err(MotionError::NotFinite {
+                name: "drive angle",
+                value: angle,
+            });
+        }
+        let mut scene = Scene::clone(&self.scene);
+        (scene.excitation.amplitude, scene.excitation.frequency) = (amplitude, frequency);
+        let scene = self.scene.recheck(scene)?;
+        let clock = Clock::new(frequency, angle.rem_euclid(TAU));
+        let work = self.tallies.work_under_way(&self.motion);
+        self.restart_clock();
+        let now = Clock::at_cycle(0);
+        let through = (scene.phases().clone(), clock);
+        if self.motion.set_drive(through, now, force) {
+            self.tallies.counts.work += work;
+        }
+        self.scene = scene;
+        self.checkpoint = Checkpoint::OnArc(self.motion.now());
+        Ok(())
+    }
+
     /// Switches the feed of strips on or off; it takes effect at the next upward crossing of the clearance.
     pub fn feed_strip(&mut self, fed: bool) {
         self.motion.feed_strip(fed);
@@ -222,7 +203,7 @@ impl Simulation {
         if retimed {
             let angle =
                 old.frequency * at.offset + clock.phase + new.reduced_phase() - old.reduced_phase();
-            let angle = angle.rem_euclid(std::f64::consts::TAU);
+            let angle = angle.rem_euclid(TAU);
             clock = Clock::new(new.frequency, angle);
             at = Clock::at_cycle(0);
         }
@@ -239,6 +220,13 @@ impl Simulation {
         let mechanical = self.motion.mechanical_energy(&self.scene);
         self.tallies.counts.work.supplied += mechanical - before;
         Ok(())
+    }
+
+    /// Begins to count the time of a new clock at the present time.
+    fn restart_clock(&mut self) {
+        self.earlier = self.last_impact();
+        self.tallies.counts.last_impact = None;
+        self.epoch = self.now;
     }
 }
 

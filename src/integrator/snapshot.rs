@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use super::bounce_train::BounceTrain;
 use super::clock::{Clock, Instant};
+use super::crossing::Impact;
 use super::external_force::Force;
 use super::motion::Motion;
-use super::observer::Impact;
 use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;
 use super::tallies::{Counts, Tallies};

@@ -29,11 +29,6 @@ impl Motion {
         self.next_crossing() == Some(self.now)
     }
 
-    /// Time in s that is too short to tell two instants apart.
-    fn resolution(&self) -> f64 {
-        64.0 * f64::EPSILON * self.clock.period()
-    }
-
     /// Lets the crossing happen that the motion stands before.
     fn pass_pending_crossing(&mut self, observer: &mut dyn Observer) {
         match self.outlook {
@@ -50,7 +45,7 @@ impl Motion {
         other: &Self,
         observer: &mut dyn Observer,
     ) -> Result<(), MotionError> {
-        let (clock, now, near) = (self.clock, other.now, self.resolution());
+        let (clock, now, near) = (self.clock, other.now, self.clock.resolution());
         let is_now = |at: Instant| clock.elapsed(at, now).abs() <= near;
         if !other.is_at_crossing() && !is_now(other.start) {
             return self.advance(now, observer);
@@ -79,6 +74,63 @@ impl Simulation {
         8.0 * f64::EPSILON * time.abs().max(time - self.now)
     }
 
+    /// Advances as [`Simulation::watch`], but stops right before the first crossing that does not happen before the time
+    /// `halt` in s; [`Simulation::cross`] lets it happen. One that is after `until` by rounding alone counts as before it.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn watch_before(
+        &mut self,
+        until: f64,
+        halt: Option<f64>,
+        observer: &mut dyn Observer,
+    ) -> Result<ControlFlow<()>, MotionError> {
+        self.check_reach(until)?;
+        let clock = *self.motion.clock();
+        let instant = clock.instant(until - self.epoch);
+        let before = self.motion.now();
+        let (mut end, mut last, mut stop) = (instant, until, None);
+        if let Some(halt) = halt {
+            let rounding = self.rounding_at(until);
+            (end, last) = (clock.after(instant, rounding), until + rounding);
+            stop = Some(clock.instant(halt - rounding - self.epoch));
+        }
+        // Equal times may be written as instants that differ in the last digit.
+        if instant <= before || self.motion.advance_if_clear(end)? {
+            if halt.is_some() && instant > before {
+                self.motion.now = instant;
+            }
+            self.checkpoint = Checkpoint::OnArc(before);
+            self.now = until;
+            return Ok(ControlFlow::Continue(()));
+        }
+        let origin = CheckpointState {
+            motion: self.motion.clone(),
+            counts: self.tallies.counts,
+            now: self.now,
+        };
+        let origin = Box::write(Box::new_uninit(), origin);
+        let mut observers = (&mut self.tallies, observer);
+        match self.motion.watch_before(end, stop, &mut observers) {
+            Ok(flow) => {
+                self.checkpoint = Checkpoint::Before(origin);
+                self.now = if flow.is_continue() {
+                    if halt.is_some() && instant > self.motion.start {
+                        self.motion.now = instant;
+                    }
+                    until
+                } else {
+                    self.time_of(self.motion.now()).clamp(self.now, last)
+                };
+                Ok(flow)
+            }
+            Err(error) => {
+                (self.motion, self.tallies.counts) = (origin.motion, origin.counts);
+                Err(error)
+            }
+        }
+    }
+
     /// Lets the crossing happen that the machine stands before, with those that follow at the same instant; false if it
     /// stands before none. A motion that fails right after it fails in the next step.
     pub fn cross(&mut self, observer: &mut dyn Observer) -> bool {
@@ -98,7 +150,7 @@ impl Simulation {
         }
         let mut observers = (&mut self.tallies, observer);
         let now = self.motion.now;
-        let near = self.motion.clock.after(now, self.motion.resolution());
+        let near = self.motion.clock.after(now, self.motion.clock.resolution());
         for _ in 0..MAX_CROSSINGS_TOGETHER {
             self.motion.pass_pending_crossing(&mut observers);
             let next = self.motion.watch_before(near, Some(now), &mut observers);

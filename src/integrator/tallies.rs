@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::arc::Arc;
 use super::clock::Instant;
+use super::crossing::Crossing;
 use super::motion::Motion;
-use super::observer::{Arc, Crossing, Observer};
+use super::observer::Observer;
 use super::{Work, work};
 
 /// Counts of impacts and pierced strips, and energies, since the start.

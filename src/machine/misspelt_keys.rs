@@ -2,7 +2,8 @@
 
 use super::keys::{FREQUENCY_HZ, TASK_TABLES, other_keys};
 use super::{Machine, UnitSystem};
-use crate::error::{MachineError, did_you_mean};
+use crate::error::MachineError;
+use crate::error_message::did_you_mean;
 use crate::scene::Parameter;
 
 /// The one of these keys that a misspelt one may mean.

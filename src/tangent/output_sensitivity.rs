@@ -77,7 +77,7 @@ impl Simulation {
         let mut motion = self.motion_at_checkpoint();
         let stored = energy_change(scene, &motion, by.position, by.velocity);
         let (from, start) = (motion.now(), motion.state());
-        let mut watch = SensitivityRecorder {
+        let mut watch = OutputSensitivityRecorder {
             scene,
             from,
             working_force: force,
@@ -132,7 +132,7 @@ fn energy_change(scene: &Scene, motion: &Motion, position: f64, velocity: f64) -
 }
 
 /// An observer that carries a small change of state and force along a motion.
-struct SensitivityRecorder<'a> {
+struct OutputSensitivityRecorder<'a> {
     scene: &'a Scene,
     from: Instant,
     /// The force whose work is asked for.
@@ -155,7 +155,7 @@ struct SensitivityRecorder<'a> {
     end_rate: Option<f64>,
 }
 
-impl Observer for SensitivityRecorder<'_> {
+impl Observer for OutputSensitivityRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let mass = self.scene.mass;
         let by = Variation {
@@ -218,7 +218,7 @@ impl Observer for SensitivityRecorder<'_> {
     }
 }
 
-impl SensitivityRecorder<'_> {
+impl OutputSensitivityRecorder<'_> {
     /// The change of the contact force where it is largest on an arc, if it is larger there than before, or goes on from
     /// the end of the last arc: at an end of the arc it comes with that.
     fn record_peak(

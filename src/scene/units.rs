@@ -1,4 +1,4 @@
-//! From dimensionless scenes to dimensional ones.
+//! From dimensionless scenes to dimensional ones, by three units.
 
 use serde::{Deserialize, Serialize};
 

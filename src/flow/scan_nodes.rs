@@ -1,10 +1,12 @@
-//! Scan nodes of an arc, and how a scan steps from one to the next, window by window.
+//! The nodes of a scan of an arc for crossings, the windows between them, and how the scan steps from one to the next.
 
-use super::arc_solution::{ArcSolution, Form};
+use serde::{Deserialize, Serialize};
+
+use super::arc_solution::{ArcSolution, Form, widened_interval};
+use super::change_near_start::change_near_start;
 use super::drive_angle::DriveAngle;
-use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
-use super::scan_node::{ScanNode, ScanWindow};
+use super::taylor_polynomials::{TaylorPolynomials, linear_forcing_series};
 
 /// Most windows that are counted from one origin node of a scan; then the node reached becomes the origin.
 const MAX_COUNTED_WINDOWS: u32 = 1 << 31;
@@ -13,6 +15,31 @@ const WINDOWS_PER_EXACT_NODE: u32 = 8;
 
 /// Ratio of the long scan window to the usual one from which it is worth asking whether it can be used.
 const MIN_LONG_WINDOW_RATIO: f64 = 4.0;
+
+/// A state on an arc at one of the times between which a scan for crossings proceeds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ScanNode {
+    /// Time since departure in s.
+    pub elapsed: f64,
+    /// Position in m.
+    pub position: f64,
+    /// Velocity in m/s.
+    pub velocity: f64,
+    /// The drive angle.
+    pub drive: DriveAngle,
+    pub(super) deviation: (f64, f64),
+    /// Scan windows are counted from here, so that their times do not drift.
+    pub(super) origin: f64,
+    pub(super) windows: u32,
+}
+
+/// A scan window: the nodes at its ends, with a bound on the fourth derivative of the position between them.
+pub(crate) struct ScanWindow<'a> {
+    pub left: &'a ScanNode,
+    pub right: &'a ScanNode,
+    /// Bound on the fourth derivative of the position, in m/s^4.
+    pub bound: f64,
+}
 
 impl ArcSolution {
     /// The scan node at the departure.
@@ -177,6 +204,36 @@ impl ArcSolution {
                 late.is_some_and(|(_, settled)| node.elapsed >= settled)
             }
             _ => false,
+        }
+    }
+
+    /// Taylor polynomials of this motion about a scan node.
+    pub(crate) fn expand(&self, node: &ScanNode) -> TaylorPolynomials {
+        let forcing =
+            linear_forcing_series(&self.flow, node.drive, self.linear_forcing_at(node.elapsed));
+        let taylor = TaylorPolynomials::expand(&self.flow, (node.position, node.velocity), forcing);
+        match self.departure.acceleration {
+            _ if self.is_held() => taylor.held_at(node.position),
+            Some(acceleration) if node.elapsed == 0.0 => {
+                taylor.with_acceleration(&self.flow, acceleration)
+            }
+            _ => taylor,
+        }
+    }
+
+    /// Bounds in m on the position from `node` to the end of time, infinite where it may grow.
+    pub(crate) fn position_range(&self, node: &ScanNode) -> (f64, f64) {
+        match self.form {
+            Form::Held => (node.position, node.position),
+            Form::Particular { particular, .. } if particular.slope == 0.0 => {
+                let (y, rate) = node.deviation;
+                let steady = particular.cosine.hypot(particular.sine);
+                widened_interval(
+                    particular.offset,
+                    steady + self.flow.modes.amplitude_bound(y, rate),
+                )
+            }
+            _ => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 }
