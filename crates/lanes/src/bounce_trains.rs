@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::law::PhaseConstants;
 use softstop::Excitation;
 use softstop::internals::{Beyond, Exit, MAX_RESTITUTION, Phase, PhaseId, Phases, Surface};
 
@@ -21,16 +20,6 @@ pub(super) struct BounceTrains<'a> {
 }
 
 impl BounceTrains<'_> {
-    /// The constants of all phases of the machine for the lanes; none if the lanes cannot follow one of them.
-    pub fn lane_laws(&self) -> Option<Vec<PhaseConstants>> {
-        let mut laws = vec![PhaseConstants::default(); self.phases.phases.len()];
-        for (law, phase) in laws.iter_mut().zip(&self.phases.phases) {
-            law.set_to_phase(self.phases, phase)?;
-            law.slow = law.slow.max(self.slowest_bounce(phase));
-        }
-        Some(laws)
-    }
-
     /// The constant force on the mass towards the stop, in N, at a surface under the law of a phase.
     fn force_towards_stop(&self, phase: PhaseId, surface: &Surface) -> f64 {
         let law = &self.phases[phase].law;
@@ -74,7 +63,7 @@ impl BounceTrains<'_> {
     }
 
     /// Speed in m/s from which on bounces at the surfaces of a phase last at least [`MIN_BOUNCE_DURATION`].
-    fn slowest_bounce(&self, phase: &Phase) -> f64 {
+    pub fn slowest_bounce(&self, phase: &Phase) -> f64 {
         let surfaces = phase.exits.iter().filter_map(|exit| match exit {
             Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),
             Exit::Reversal { .. } | Exit::Switch(_) => None,

@@ -12,8 +12,8 @@
 use pulp::Simd;
 
 use super::contact_state::ContactState;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Laws;
 
 /// Degree of the power series of a contact in the regularised time sigma; odd.
 pub(super) const DEGREE: usize = 25;

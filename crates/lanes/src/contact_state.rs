@@ -2,8 +2,8 @@
 
 use pulp::Simd;
 
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Laws;
 
 /// State of a power-law contact in every lane.
 #[derive(Debug, Clone, Copy)]

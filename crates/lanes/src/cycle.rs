@@ -9,7 +9,7 @@ use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 
 use super::cycle_state::{CycleState, Derivatives, Forcing, GuardCrossing, Jet};
 use super::cycle_windows::CycleWindows;
-use super::law::{MIN_WINDOW_SHARE, PhaseConstants};
+use super::lane_laws::{MIN_WINDOW_SHARE, PhaseConstants};
 use super::phase_guards::PhaseGuard;
 use softstop::internals::Modes;
 

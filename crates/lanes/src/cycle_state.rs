@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Matrix2, Vector2};
 
-use super::law::PhaseConstants;
+use super::lane_laws::PhaseConstants;
 
 /// A recorded crossing of a guard by a trial cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector4;
 
 use super::cycle_state::{CycleState, Derivatives};
-use super::law::{PhaseConstants, WINDOW_ANGLE};
+use super::lane_laws::{PhaseConstants, WINDOW_ANGLE};
 use super::phase_guards::PhaseGuard;
 
 /// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the error M

@@ -4,10 +4,10 @@ use pulp::Simd;
 
 use super::engine::Engine;
 use super::guard_search::SearchResult;
+use super::lane_laws::MIN_WINDOW_SHARE;
 use super::lanes::{Lanes, Mask};
-use super::law::MIN_WINDOW_SHARE;
 use super::move_lanes::LaneEnd;
-use super::scan::ScanResult;
+use super::scan_windows::ScanResult;
 use super::window_guard::WindowGuard;
 
 /// Shortest time that lanes decide at once, in windows: where less is left of a period it is taken for this long.

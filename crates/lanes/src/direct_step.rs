@@ -6,12 +6,12 @@ use pulp::Simd;
 use super::engine::Engine;
 use super::free_and_steady_parts::Parts;
 use super::guard_interval::GuardInterval;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Laws;
 use super::local_taylor;
 use super::move_lanes::LaneEnd;
 use super::nearby_zero::nearby_zero;
-use super::scan::LEAVING_MARGIN;
+use super::scan_windows::LEAVING_MARGIN;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 
 /// Least time from the crossing of a direct step to the end of the period, in windows: more than rounding could bridge.

@@ -27,14 +27,13 @@ use pulp::Simd;
 
 use super::contact_series::ContactSeries;
 use super::job::{Job, Outcome, Task};
+use super::lane_laws::Laws;
+use super::lane_states::LaneStates;
 use super::lanes::{Lanes, Mask};
-use super::law::Laws;
 use super::lowered_machine::LoweredMachine;
-use super::phase_order::{PhaseGraph, phase_order};
+use super::phase_graph::{PhaseGraph, phase_order};
 use super::return_history::ReturnHistory;
-use super::safe_engine::{self, Resumed, SafeStart};
-use super::state::LaneStates;
-use softstop::Start;
+use super::safe_engine::{Resumed, SafeStart, start_phase};
 
 /// Number of rounds over all phases after which their work is counted and overdue trial cycles are ended.
 const ROUNDS_PER_COUNT: usize = 16;
@@ -68,7 +67,7 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     installed: Vec<Option<usize>>,
     /// The next job to begin.
     next: usize,
-    outcomes: Vec<Outcome>,
+    pub outcomes: Vec<Outcome>,
 }
 
 impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
@@ -227,7 +226,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     }
 
     /// Puts the next job that can be followed into a lane, or leaves the lane idle.
-    fn take_next(&mut self, lane: usize) {
+    pub fn take_next(&mut self, lane: usize) {
         self.lanes[lane] = None;
         self.state.left.set(lane, 0.0);
         while self.next < self.task.jobs.len() && self.task.watch.count_work(0).is_continue() {
@@ -244,14 +243,14 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             if self.task.jobs[job].periods == 0 {
                 continue;
             }
-            let begun = safe_engine::start_phase(&self.task.machines[machine], start);
+            let begun = start_phase(&self.task.machines[machine], start);
             let resumed = match begun {
                 Ok(Some(phase)) => Some(Resumed {
                     cycle: 0,
                     state: start,
                     phase,
                 }),
-                Ok(None) => self.follow_safely(place),
+                Ok(None) => self.follow_job_safely(place),
                 Err(error) => {
                     self.outcomes[job].error = Some(error);
                     None
@@ -286,72 +285,6 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             }
         }
         self.state.set_drive(lane, machine);
-    }
-
-    /// Lets a lane go on with a job in the state in which the safe engine has left it, at the beginning of a drive period.
-    fn resume_job(&mut self, lane: usize, job: usize, resumed: &Resumed) {
-        let periods = self.task.jobs[job].periods;
-        self.state.periods.set(lane, periods as f64);
-        let left = periods - resumed.cycle;
-        self.state
-            .begin_period(lane, resumed.state, resumed.phase, left);
-        self.begin_recording(lane);
-    }
-
-    /// Lets the safe engine follow a job to where it can go on in a lane; none if the job ends before.
-    fn follow_safely(&mut self, place: SafeStart) -> Option<Resumed> {
-        let Job {
-            machine, periods, ..
-        } = self.task.jobs[place.job];
-        let outcome = &mut self.outcomes[place.job];
-        let machine = &self.task.machines[machine];
-        match safe_engine::follow_safely(machine, place, periods, &mut self.task.watch, outcome) {
-            Ok(resumed) => resumed,
-            Err(error) => {
-                outcome.error = Some(error);
-                None
-            }
-        }
-    }
-
-    /// Hands the motion of a lane to the safe engine for the rest of the drive period, or until lanes can follow it.
-    fn hand_over(&mut self, lane: usize) {
-        let Some((job, cycle)) = self.job_progress(lane) else {
-            return;
-        };
-        let offset = self.state.offset.get(lane);
-        let begun = cycle > 0 || offset > 0.0;
-        let place = SafeStart {
-            job,
-            cycle,
-            offset,
-            state: if begun {
-                self.state_within_phase(lane)
-            } else {
-                self.state.position_and_velocity(lane)
-            },
-            phase: begun.then(|| self.state.phase.get(lane) as usize),
-        };
-        self.state.take_counts(lane, &mut self.outcomes[job]);
-        match self.follow_safely(place) {
-            Some(resumed) => self.resume_job(lane, job, &resumed),
-            None => self.take_next(lane),
-        }
-    }
-
-    /// The state of a lane with the position moved back inside its phase where rounding has put it onto an end of it: there the
-    /// safe engine would take the crossing for done.
-    fn state_within_phase(&self, lane: usize) -> Start {
-        let Start { position, velocity } = self.state.position_and_velocity(lane);
-        let law = &self.laws[self.state.phase.get(lane) as usize];
-        let position = if velocity > 0.0 {
-            position.min(law.high.get(lane).next_down())
-        } else if velocity < 0.0 {
-            position.max(law.low.get(lane).next_up())
-        } else {
-            position
-        };
-        Start { position, velocity }
     }
 
     /// Adds drive periods that a lane skips to the outcome of its job.

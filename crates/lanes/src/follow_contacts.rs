@@ -17,8 +17,8 @@ use pulp::Simd;
 use super::contact_series::ContactSeries;
 use super::contact_state::ContactState;
 use super::engine::Engine;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask};
-use super::law::Laws;
 use super::move_lanes::LaneEnd;
 
 /// How many eighths of the busy lanes have to be in power-law contact before these are moved; until then they wait.

@@ -3,8 +3,8 @@
 use pulp::Simd;
 
 use super::engine::Engine;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Laws;
 use super::sine_cosine::{HALF_WINDOW_DEGREE, cos_sinc};
 
 /// A motion in every lane as the sum of a free part, position y and velocity u, and the steady part under the drive, p and q.
@@ -161,6 +161,33 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         };
         let begun = parts.after_time(law, frequency, time.minus_product(windows, law.window));
         law.free_after_whole(windows, (begun.y, begun.u))
+    }
+}
+
+impl<S: Simd, const N: usize> Laws<S, N> {
+    /// Rate and second derivative of a free motion, or of a derivative of it, from its value and rate.
+    #[inline(always)]
+    pub fn differentiate_free(&self, (free, rate): Pair<S, N>) -> Pair<S, N> {
+        (rate, self.stiffness.mul_add(free, self.damping * rate))
+    }
+
+    /// Position and velocity of a free motion (y, u) after a number of windows, by powers of the transition matrix of one.
+    #[inline(always)]
+    pub fn free_after_whole(&self, windows: Lanes<S, N>, (mut y, mut u): Pair<S, N>) -> Pair<S, N> {
+        let (zero, one, half) = (y.like(0.0), y.like(1.0), y.like(0.5));
+        let (mut xx, mut xv, mut vx, mut vv) = (self.xx, self.xv, self.vx, self.vv);
+        let mut left = windows;
+        while zero.below(left).any() {
+            let halved = (left * half).floor();
+            let odd = one.equals(left - (halved + halved));
+            let (next_y, next_u) = (xx.mul_add(y, xv * u), vx.mul_add(y, vv * u));
+            (y, u) = (odd.choose(next_y, y), odd.choose(next_u, u));
+            let (trace, cross) = (xx + vv, xv * vx);
+            (xx, vv) = (xx.mul_add(xx, cross), vv.mul_add(vv, cross));
+            (xv, vx) = (xv * trace, vx * trace);
+            left = halved;
+        }
+        (y, u)
     }
 }
 

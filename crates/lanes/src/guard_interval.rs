@@ -5,8 +5,8 @@
 
 use pulp::Simd;
 
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Laws;
 
 /// A guard function g over [0, span]: values and rates at both ends, and the error bound |g''''| span^4 / 384 of their cubic.
 #[derive(Debug, Clone, Copy)]

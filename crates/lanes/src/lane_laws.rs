@@ -133,12 +133,6 @@ law! {
 }
 
 impl<S: Simd, const N: usize> Laws<S, N> {
-    /// Rate and second derivative of a free motion, or of a derivative of it, from its value and rate.
-    #[inline(always)]
-    pub fn differentiate_free(&self, (free, rate): Pair<S, N>) -> Pair<S, N> {
-        (rate, self.stiffness.mul_add(free, self.damping * rate))
-    }
-
     /// True where the phase ends as the velocity passes zero, under dry friction: the further guard is the velocity.
     #[inline(always)]
     pub fn ends_at_reversal(&self) -> Mask<S, N> {
@@ -164,24 +158,5 @@ impl<S: Simd, const N: usize> Laws<S, N> {
         } else {
             (self.edge, self.edge.like(f64::NEG_INFINITY))
         }
-    }
-
-    /// Position and velocity of a free motion (y, u) after a number of windows, by powers of the transition matrix of one.
-    #[inline(always)]
-    pub fn free_after_whole(&self, windows: Lanes<S, N>, (mut y, mut u): Pair<S, N>) -> Pair<S, N> {
-        let (zero, one, half) = (y.like(0.0), y.like(1.0), y.like(0.5));
-        let (mut xx, mut xv, mut vx, mut vv) = (self.xx, self.xv, self.vx, self.vv);
-        let mut left = windows;
-        while zero.below(left).any() {
-            let halved = (left * half).floor();
-            let odd = one.equals(left - (halved + halved));
-            let (next_y, next_u) = (xx.mul_add(y, xv * u), vx.mul_add(y, vv * u));
-            (y, u) = (odd.choose(next_y, y), odd.choose(next_u, u));
-            let (trace, cross) = (xx + vv, xv * vx);
-            (xx, vv) = (xx.mul_add(xx, cross), vv.mul_add(vv, cross));
-            (xv, vx) = (xv * trace, vx * trace);
-            left = halved;
-        }
-        (y, u)
     }
 }

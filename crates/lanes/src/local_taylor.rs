@@ -3,8 +3,8 @@
 use pulp::Simd;
 
 use super::free_and_steady_parts::Parts;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Pair};
-use super::law::Laws;
 
 /// Coefficients of a Taylor polynomial in time about one instant, in every lane, the value first.
 pub(super) type LocalTaylor<S, const N: usize> = [Lanes<S, N>; TERMS];

@@ -1,8 +1,8 @@
 //! Machines made ready for the lanes.
 
 use super::bounce_trains::BounceTrains;
-use super::law::PhaseConstants;
-use super::phase_order::{MAX_PHASES, PhaseGraph};
+use super::lane_laws::PhaseConstants;
+use super::phase_graph::{MAX_PHASES, PhaseGraph};
 use softstop::CheckedScene;
 
 /// A machine whose phases are made ready for the lanes, once for any number of motions.
@@ -21,7 +21,7 @@ impl LoweredMachine {
         let (phases, drive) = (scene.phases(), scene.excitation);
         let trains = BounceTrains { phases, drive };
         let for_lanes = phases.phases.len() <= MAX_PHASES && trains.ends_before_rest();
-        let laws = if for_lanes { trains.lane_laws() } else { None };
+        let laws = if for_lanes { lane_laws(&trains) } else { None };
         let (sin, cos) = drive.phase.sin_cos();
         Self {
             outline: laws.as_deref().map(PhaseGraph::from_laws),
@@ -56,4 +56,14 @@ impl LoweredMachine {
             free.low + free.ambiguity < position && position < free.high - free.ambiguity
         })
     }
+}
+
+/// The constants of all phases of the machine for the lanes; none if the lanes cannot follow one of them.
+fn lane_laws(trains: &BounceTrains<'_>) -> Option<Vec<PhaseConstants>> {
+    let mut laws = vec![PhaseConstants::default(); trains.phases.phases.len()];
+    for (law, phase) in laws.iter_mut().zip(&trains.phases.phases) {
+        law.set_to_phase(trains.phases, phase)?;
+        law.slow = law.slow.max(trains.slowest_bounce(phase));
+    }
+    Some(laws)
 }

@@ -3,8 +3,8 @@
 use pulp::Simd;
 
 use super::engine::Engine;
+use super::lane_states::LaneStates;
 use super::lanes::{Lanes, Mask, Pair};
-use super::state::LaneStates;
 use softstop::Start;
 
 /// Where a step brings each lane: its state then and, at a crossing, the phase beyond and the number of impacts, 0 or 1.

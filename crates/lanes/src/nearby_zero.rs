@@ -2,8 +2,8 @@
 
 use pulp::Simd;
 
+use super::lane_laws::WINDOW_ANGLE;
 use super::lanes::{Lanes, Mask};
-use super::law::WINDOW_ANGLE;
 use super::local_taylor::{LocalTaylor, TERMS, curvature_at};
 
 /// Longest time from a Taylor polynomial's centre to a zero that is used, times the fastest rate of the motion, in rad.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Complex, Vector2};
 
-use super::law::{FREE_TERMS, PhaseConstants, WINDOW_ANGLE};
+use super::lane_laws::{FREE_TERMS, PhaseConstants, WINDOW_ANGLE};
 use softstop::PhaseKind;
 use softstop::internals::{
     Beyond, Exit, MIN_SCALE_STIFFNESS, Modes, Phase, Phases, PowerLaw, SurfaceId,

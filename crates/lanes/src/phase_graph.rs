@@ -1,6 +1,6 @@
 //! The phases of a machine as a graph, and the order in which a round of the loop visits them.
 
-use super::law::PhaseConstants;
+use super::lane_laws::PhaseConstants;
 
 /// The order in which a round of the loop visits the phases of machines with these graphs: each phase before its successors, but
 /// for the step that closes a cycle, so that lanes go from phase to phase in one round.

@@ -1,7 +1,7 @@
 //! The guards that end a phase, as linear functions of position and velocity.
 
 use super::cycle_state::GuardCrossing;
-use super::law::PhaseConstants;
+use super::lane_laws::PhaseConstants;
 
 /// A guard that ends a phase where `position` x + `velocity` v = `level`; inside the phase the left side is smaller.
 #[derive(Debug, Clone, Copy)]

@@ -25,7 +25,7 @@ use super::contraction_norm::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
 use super::cycle_state::{Forcing, GuardCrossing};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
-use super::law::PhaseConstants;
+use super::lane_laws::PhaseConstants;
 use super::post_impact_state::PostImpactState;
 use super::return_settings::SETTINGS;
 

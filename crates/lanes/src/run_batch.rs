@@ -5,8 +5,7 @@ use std::ops::{ControlFlow, Range};
 use rayon::prelude::*;
 
 use super::batch_observer::{BatchObserver, ObserverHandle};
-use super::dispatch;
-use super::dispatch::InstructionLimit;
+use super::instruction_set::{self, InstructionLimit};
 use super::job::{Job, Outcome};
 use super::lowered_machine::LoweredMachine;
 use softstop::Start;
@@ -34,7 +33,7 @@ pub fn run_with(
     jobs: &[Job],
     watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
-    dispatch::run_jobs(machines, jobs, ObserverHandle::new(watch), instructions)
+    instruction_set::run_jobs(machines, jobs, ObserverHandle::new(watch), instructions)
 }
 
 /// Follows the motions of all jobs on this thread, one after another, each alone in one register of at most 256 bits: what a
@@ -47,7 +46,7 @@ pub fn run_one_by_one(
     jobs: &[Job],
     watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
-    dispatch::run_one_by_one(machines, jobs, watch)
+    instruction_set::run_one_by_one(machines, jobs, watch)
 }
 
 /// Follows the motions of all jobs in batches on the threads of rayon's pool, with the same result for any number of threads.

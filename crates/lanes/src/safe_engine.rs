@@ -1,4 +1,4 @@
-//! Hands motions over to the safe engine and back: what lanes cannot decide, up to the end of a drive period.
+//! Follows motions with the safe engine: what lanes cannot decide, up to the end of a drive period.
 
 use std::ops::ControlFlow;
 

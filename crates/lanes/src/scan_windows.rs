@@ -5,8 +5,8 @@ use pulp::Simd;
 use super::cubic::Cubic;
 use super::engine::Engine;
 use super::free_and_steady_parts::Parts;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask};
-use super::law::Laws;
 
 /// Most windows of one scan, about a drive period; after it the lanes that have stopped decide their windows.
 pub(super) const MAX_SCAN_WINDOWS: usize = 12;

@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::engine::Engine;
 use super::free_and_steady_parts::Parts;
 use super::lanes::{Lanes, Mask};
-use super::scan::ScanResult;
+use super::scan_windows::ScanResult;
 
 /// Drive periods at the end of a job that are never skipped: more than one scan covers.
 const UNSKIPPED_PERIODS: f64 = 4.0;

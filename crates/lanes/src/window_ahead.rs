@@ -4,9 +4,9 @@ use pulp::Simd;
 
 use super::engine::Engine;
 use super::free_and_steady_parts::Parts;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask};
-use super::law::Laws;
-use super::scan::ScanResult;
+use super::scan_windows::ScanResult;
 
 /// The window that each lane decides next, or the first part of it, with the motion at its ends.
 #[derive(Debug, Clone, Copy)]

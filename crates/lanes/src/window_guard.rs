@@ -4,8 +4,8 @@ use pulp::Simd;
 
 use super::free_and_steady_parts::Parts;
 use super::guard_interval::GuardInterval;
+use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::law::Laws;
 use super::window_ahead::WindowAhead;
 
 /// The guard function that each lane may meet in its window, g = position x + velocity v - level, with error bounds.
