@@ -24,13 +24,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod basin_entropy;
+mod basin_survey;
 mod basin_test;
 mod basins;
+mod basins_of_survey;
 mod bring_to_section;
 mod certainty;
 mod classify_cells;
 mod contraction_ball;
-mod entropy;
 mod erosion_profile;
 mod establishment;
 mod global_continuation;
@@ -38,18 +40,17 @@ mod grid;
 mod largest_ball;
 mod settle_cells;
 mod start_balls;
-mod survey;
 
 pub use crate::wilson_interval::wilson_interval;
+pub use basin_entropy::BasinEntropy;
+pub use basin_survey::find_basins;
 pub(crate) use basin_test::TestedMotion;
 pub use basin_test::{BasinTest, SLOW_DECAY};
 pub use basins::{BasinOptions, Basins};
 pub(crate) use bring_to_section::bring_to_section;
 pub use certainty::{CertaintyAtPlace, establishing_certainties};
-pub use entropy::BasinEntropy;
 pub use erosion_profile::{ErosionProfile, Integrity, zone_box};
 pub use establishment::Establishment;
 pub use global_continuation::{BasinsAt, follow_attractors};
 pub use grid::{Axis, AxisQuantity, Grid};
 pub use largest_ball::{BasinBall, find_largest_ball};
-pub use survey::find_basins;

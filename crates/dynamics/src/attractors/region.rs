@@ -17,7 +17,8 @@ pub struct Region {
 }
 
 /// Margin on each side of the states that a region of starts holds, as a share of their range.
-const REGION_MARGIN: f64 = 0.5;
+pub(super) const REGION_MARGIN: f64 = 0.5;
+
 impl Region {
     /// The region of the first starts of a search, the pilot: three times the length of [`Scene::motion_scales`] about the origin.
     pub(super) fn pilot(scene: &Scene) -> Self {
@@ -51,42 +52,8 @@ impl Region {
             .then(|| region.clipped_at_stops(scene))
     }
 
-    /// The box about the origin from which commands take starts: twice the length of [`Scene::motion_scales`] both ways, or wider
-    /// to hold some states.
-    pub(crate) fn starting_box_holding(
-        scene: &Scene,
-        states: impl IntoIterator<Item = Start>,
-    ) -> Self {
-        let Scales { length, rate } = scene.motion_scales();
-        let (length, room) = (2.0 * length, 1.0 + REGION_MARGIN);
-        let half = states
-            .into_iter()
-            .fold((length, length * rate), |(x, v), state| {
-                let (far, fast) = (state.position.abs(), state.velocity.abs());
-                match (far + fast).is_finite() {
-                    true => (x.max(room * far), v.max(room * fast)),
-                    false => (x, v),
-                }
-            });
-        Self {
-            position: [-half.0, half.0],
-            velocity: [-half.1, half.1],
-        }
-        .clipped_at_stops(scene)
-    }
-
-    /// The region itself if it holds some states, else its union with the [`Region::starting_box_holding`] of these.
-    pub(crate) fn widened_to_hold(&self, scene: &Scene, states: &[Start]) -> Self {
-        match states.iter().all(|state| self.contains(state)) {
-            true => *self,
-            false => {
-                self.smallest_union(&Self::starting_box_holding(scene, states.iter().copied()))
-            }
-        }
-    }
-
     /// True if a state lies in the region.
-    fn contains(&self, state: &Start) -> bool {
+    pub(super) fn contains(&self, state: &Start) -> bool {
         let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
         within(self.position, state.position) && within(self.velocity, state.velocity)
     }

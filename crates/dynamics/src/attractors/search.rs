@@ -1,7 +1,7 @@
 //! The search of attractors: from starts to motions.
 
-mod report;
-mod wandering;
+mod group_wandering;
+mod reported_attractors;
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! The basins of a survey: classes of cells by the motions that they have come to.
 
 use super::Basins;
-use super::survey::BasinSurvey;
+use super::basin_survey::BasinSurvey;
 use crate::attractors::Attractor;
 use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::MemberStatus;
@@ -50,24 +50,6 @@ impl BasinSurvey<'_> {
             self.enter_class(&mut basins, |it| it == outcome, class);
         }
         Ok(basins)
-    }
-
-    /// The kind of motion, chaos or unsettled, of the cells that have not returned, and the exponents of the first of them;
-    /// `known`: these exponents, if they were computed before.
-    fn classify_wandering_cells(
-        &self,
-        known: Option<LyapunovExponents>,
-    ) -> Result<(MotionKind, Option<LyapunovExponents>), OrbitError> {
-        let mut outcomes = self.outcomes.iter();
-        let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
-            return Ok((MotionKind::Unsettled, None));
-        };
-        let exponents = known.map_or_else(|| self.exponents_of_cell(cell), Ok)?;
-        let motion = match exponents.is_positive() {
-            true => MotionKind::Chaos,
-            false => MotionKind::Unsettled,
-        };
-        Ok((motion, Some(exponents)))
     }
 
     /// Enters the class of all cells for whose outcome `has_come` is true, if there are any.

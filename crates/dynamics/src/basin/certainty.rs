@@ -1,6 +1,6 @@
 //! The establishing certainty of z = 1 along the hysteresis zone.
 
-use super::survey::find_basins_of_scenes;
+use super::basin_survey::find_basins_of_scenes;
 use super::{BasinOptions, Basins, Grid};
 use crate::monitor::{Monitor, OptionalMemory};
 use crate::orbit::Regime;

@@ -5,7 +5,7 @@
 //! say. The motion from its state is followed at the next value, so that an attractor is found also if no cell leads to it.
 //! One orbit continues one attractor; what continues none is new.
 
-use super::survey::find_basins_of_scenes;
+use super::basin_survey::find_basins_of_scenes;
 use super::{BasinEntropy, BasinOptions, Basins, Grid};
 use crate::attractors::{Attractor, SearchOptions, settle_starts};
 use crate::monitor::{Monitor, OptionalMemory};

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::basin_survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
 use super::basin_test::PERIODS_BETWEEN_CHECKS;
-use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
 use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::orbit::{LYAPUNOV_BATCH_PERIODS, LyapunovExponents, OrbitError};
@@ -166,7 +166,7 @@ impl BasinSurvey<'_> {
             }
             self.scout_grid()?;
             self.settle_cells()?;
-            self.judge_all()?;
+            self.classify_open_cells()?;
         }
         let left = self
             .outcomes
