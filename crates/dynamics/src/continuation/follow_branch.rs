@@ -1,9 +1,10 @@
-//! Whole branches of orbits: both directions, every special point on the way, and why they end.
+//! Follows whole branches of orbits: in both directions, with every special point on the way, to where they end.
 
 use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Vector2};
 
+use super::branch::Branch;
 use super::chord_and_cubic::passes_place;
 use super::equations::{CurveNode, StepEnds};
 use super::follow_curve::MIN_LOOP_POINTS;
@@ -13,40 +14,10 @@ use super::locate_zero::locate_zero;
 use super::period_map::PeriodMap;
 use super::stepper::Stepper;
 use super::stroboscopic_section::SectionChange;
-use super::{
-    BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint, TestFunction,
-};
+use super::{BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint};
 use crate::direction::Direction;
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
-
-/// A branch of orbits, in order of arclength.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Branch {
-    /// Drive periods of the orbits.
-    pub periods: u64,
-    /// Points, special ones among them.
-    pub points: Vec<BranchPoint>,
-    /// Special points, in the same order.
-    pub specials: Vec<SpecialPoint>,
-    /// Why it ends at its first point and at its last.
-    pub ends: (BranchEnd, BranchEnd),
-}
-
-impl Branch {
-    /// The special point of the branch at this point, if it is one.
-    pub fn special_at(&self, point: &BranchPoint) -> Option<&SpecialPoint> {
-        self.specials.iter().find(|special| special.is_at(point))
-    }
-
-    /// The points of the branch at which a test vanishes, in their order.
-    pub fn critical_points(&self, test: TestFunction) -> impl Iterator<Item = &BranchPoint> {
-        let own = move |special: &&SpecialPoint| special.kind == SpecialKind::Critical(test);
-        let own = self.specials.iter().filter(own);
-        own.map(|special| &special.point)
-    }
-}
 
 impl<'a> Continuation<'a> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every

@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 use nalgebra::DVector;
 
 use super::chord_and_cubic::passes_place;
+use super::codimension_two_on_step::{codimension_two_between, reaches_flip};
 use super::equations::{CurveNode, StepEnds};
 use super::locate_zero::locate_zero;
-use super::newton_corrector::{correct, curve_tangent};
-use super::special_point_equations::{SpecialPointEquations, along_parameters};
+use super::newton_corrector::correct;
+use super::special_point_equations::SpecialPointEquations;
 use super::stepper::Stepper;
 use super::{CodimensionTwo, Curve, CurveEnd, CurveLimits, CurvePoint, SpecialKind};
 use crate::orbit::OrbitError;
-use crate::tolerance::SAME;
 
 /// Follows the curve through the solution near a guess, in both directions.
 pub(super) fn follow_curve<E: SpecialPointEquations>(
@@ -116,56 +116,6 @@ fn follow_half_curve<E: SpecialPointEquations>(
         }
     }
     Ok(CurveEnd::Points)
-}
-
-/// The point of codimension two between two nodes, if there is one; with the directions of the curve there.
-fn codimension_two_between<E: SpecialPointEquations>(
-    equations: &E,
-    (from, to): StepEnds<'_, E::Point>,
-    [begins, ends]: [&DVector<f64>; 2],
-) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
-    let (_, before) = equations.degeneracy_test(from, [begins, begins]);
-    let (_, after) = equations.degeneracy_test(to, [begins, ends]);
-    let changes = before * after < 0.0;
-    if !changes {
-        return Ok(None);
-    }
-    let direction = |node: &CurveNode<E::Point>| curve_tangent(equations, node, begins);
-    let value = |node: &CurveNode<E::Point>| {
-        let value =
-            direction(node).map(|(here, _)| equations.degeneracy_test(node, [begins, &here]).1);
-        value.unwrap_or(f64::NAN)
-    };
-    let (node, _) = locate_zero(equations, (from, to), value)?;
-    let (kind, _) = equations.degeneracy_test(&node, [begins, begins]);
-    // A curve that only turns sharply has its parameters change there, too.
-    let is_found = match kind {
-        CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < SAME,
-        // It changes its sign as well where it grows beyond all bounds.
-        CodimensionTwo::GeneralisedFlip => value(&node).abs() < before.abs().min(after.abs()),
-        CodimensionTwo::ResonantGrazing(_) => true,
-    };
-    let point = equations.curve_point(&node)?;
-    Ok(is_found.then_some((kind, point)))
-}
-
-/// True if a fold between two nodes of a curve repeats after half its drive periods already: it is a flip.
-fn reaches_flip<E: SpecialPointEquations>(
-    equations: &E,
-    (from, to): StepEnds<'_, E::Point>,
-) -> bool {
-    let gap =
-        |node: &CurveNode<E::Point>| equations.half_period_gap(&equations.curve_point(node).ok()?);
-    let (Some(before), Some(after)) = (gap(from), gap(to)) else {
-        return false;
-    };
-    if before.dot(&after) >= 0.0 {
-        return false;
-    }
-    let value = |node: &CurveNode<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
-    let between = locate_zero(equations, (from, to), value).ok();
-    let left = between.and_then(|(node, _)| gap(&node));
-    left.is_some_and(|it| it.norm() < SAME * before.norm().max(after.norm()))
 }
 
 /// The end of a step of a curve, or the point on it where a parameter leaves its range, and whether one does.

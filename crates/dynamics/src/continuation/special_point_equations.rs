@@ -9,13 +9,8 @@ use super::impact_section_system::ImpactSectionSystem;
 use super::newton_corrector::correct;
 use super::period_map::PeriodMap;
 use super::stroboscopic_shooting::CriticalShooting;
-use super::{CodimensionTwo, CurvePoint, Family, TestFunction, normal_form_coefficient};
-use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
-
-/// The part of a curve's direction along the two parameters.
-pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
-    direction.rows(direction.len() - 2, 2).into_owned()
-}
+use super::{CodimensionTwo, CurvePoint, Family, TestFunction};
+use crate::orbit::{Monodromy, OrbitError};
 
 /// A system whose solutions are special points in two parameters, its last two unknowns: it makes a curve.
 pub(super) trait SpecialPointEquations: Equations {
@@ -53,30 +48,6 @@ pub(super) trait SpecialPointEquations: Equations {
         None
     }
 
-    /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a
-    /// direction; before, it had another one. Not a number where it cannot be computed. At a cusp both parameters turn
-    /// back, at a generalised flip the coefficient of the normal form vanishes.
-    fn degeneracy_test(
-        &self,
-        node: &CurveNode<Self::Point>,
-        [before, here]: [&DVector<f64>; 2],
-    ) -> (CodimensionTwo, f64) {
-        if let Some(found) = self.resonance_test(node) {
-            return found;
-        }
-        if self.critical_test() != Some(TestFunction::Flip) {
-            let value = along_parameters(before).dot(&along_parameters(here));
-            return (CodimensionTwo::Cusp, value);
-        }
-        let (machines, periods) = self.family_and_periods();
-        let coefficient = self.curve_point(node).and_then(|point| {
-            let scene = machines.scene(point.parameters)?;
-            normal_form_coefficient(&scene, periods, TestFunction::Flip, point.state())
-        });
-        let value = coefficient.ok().flatten().unwrap_or(f64::NAN);
-        (CodimensionTwo::GeneralisedFlip, value)
-    }
-
     /// The resonant grazing in which a curve of grazings ends within a step from a node, if it does.
     fn resonant_grazing_within_step(
         &self,
@@ -85,20 +56,6 @@ pub(super) trait SpecialPointEquations: Equations {
     ) -> Option<(CodimensionTwo, CurvePoint)> {
         let _ = (node, step);
         None
-    }
-
-    /// How far the orbits of a fold are from where they are half their drive periods later, in units of the machine's motion;
-    /// none if that number is odd. It vanishes where the curve ends on one of flips.
-    fn half_period_gap(&self, point: &CurvePoint) -> Option<Vector2<f64>> {
-        let (machines, periods) = self.family_and_periods();
-        if self.critical_test() != Some(TestFunction::Fold) || !periods.is_multiple_of(2) {
-            return None;
-        }
-        let scene = machines.scene(point.parameters).ok()?;
-        let map = StroboscopicMap::new(&scene, periods / 2);
-        let gap = map.apply(point.state()).ok()?.end - point.state();
-        let scales = scene.motion_scales();
-        Some(Vector2::new(gap.x / scales.length, gap.y / scales.speed()))
     }
 }
 
