@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, TestedMotion};
 use crate::ensemble::Member;
+pub use crate::missed_strokes::StrokeCount;
+use crate::missed_strokes::StrokeObserver;
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
 use crate::parallel;
-pub use crate::strokes::StrokeCount;
-use crate::strokes::StrokeObserver;
 use softstop::internals::Motion;
 use softstop::{CheckedScene, Instant, MotionError, Scene, Strip};
 use softstop_lanes::LoweredMachine;

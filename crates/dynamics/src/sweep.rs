@@ -27,7 +27,7 @@
 //! ```
 
 mod chain;
-mod run;
+mod run_chains;
 
 pub use chain::{Chain, Coexistence, Jump, SweepStep, find_coexistences};
 

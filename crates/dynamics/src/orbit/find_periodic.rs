@@ -104,13 +104,6 @@ impl Orbit {
         Ok(Self::from_map(periods, state, passage))
     }
 
-    /// True if a weak impact makes the orbit's map so steep that it takes states that are near as far apart as the motion is
-    /// wide: then rounding of the state tells in that impact.
-    fn has_weak_impact(&self) -> bool {
-        let steepness = self.scene.scales().jacobian(&self.monodromy).norm();
-        !self.impacts.is_empty() && self.rests.is_empty() && NEAR * steepness > 1.0
-    }
-
     /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s
     /// and before-impact velocities in m/s of all impacts near its own. It is regular down to grazing,
     /// where the map is not. No impact may come to rest.
@@ -138,17 +131,5 @@ impl Orbit {
             }
         }
         Ok(orbit)
-    }
-
-    /// True if the impacts of an orbit are the same after `part` of its drive periods.
-    fn repeats_after(&self, impacts: &[TimedImpact], part: u64) -> bool {
-        let period = self.scene.clock().period();
-        let shift = impacts.len() * part as usize / self.periods as usize;
-        let span = period * part as f64;
-        let speed = self.scene.scales().speed();
-        let pairs = impacts.iter().zip(&impacts[shift..]);
-        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
-        let most = ROUNDING * (1.0 + self.velocity.abs() / speed);
-        pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
     }
 }

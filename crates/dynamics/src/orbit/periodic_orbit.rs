@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::{ImpactPattern, MapApplication, Monodromy, Regime, StroboscopicMap, TimedImpact};
-use crate::tolerance::ROUNDING;
+use crate::tolerance::{NEAR, ROUNDING};
 use softstop::{CheckedScene, ImpactEvent, Instant, MotionError, Scene, Trajectory};
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
@@ -157,6 +157,25 @@ impl Orbit {
     /// True if the impact of this orbit is harder than that of another one, beyond rounding.
     pub(crate) fn is_harder(&self, other: &Self) -> bool {
         self.before_impact_velocity() > (1.0 + ROUNDING) * other.before_impact_velocity()
+    }
+
+    /// True if a weak impact makes the orbit's map so steep that it takes states that are near as far apart as the motion is
+    /// wide: then rounding of the state tells in that impact.
+    pub(super) fn has_weak_impact(&self) -> bool {
+        let steepness = self.scene.scales().jacobian(&self.monodromy).norm();
+        !self.impacts.is_empty() && self.rests.is_empty() && NEAR * steepness > 1.0
+    }
+
+    /// True if the impacts of an orbit are the same after `part` of its drive periods.
+    pub(super) fn repeats_after(&self, impacts: &[TimedImpact], part: u64) -> bool {
+        let period = self.scene.clock().period();
+        let shift = impacts.len() * part as usize / self.periods as usize;
+        let span = period * part as f64;
+        let speed = self.scene.scales().speed();
+        let pairs = impacts.iter().zip(&impacts[shift..]);
+        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
+        let most = ROUNDING * (1.0 + self.velocity.abs() / speed);
+        pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
     }
 }
 
