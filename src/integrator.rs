@@ -24,6 +24,7 @@ mod tallies;
 mod work;
 
 pub use arc::Arc;
+pub use bounce_train::MAX_RESTITUTION;
 pub use clock::{Clock, Instant};
 pub use contacts::Contacts;
 pub(crate) use contacts::contact_peak;
@@ -34,7 +35,6 @@ pub use motion::Motion;
 pub use observer::Observer;
 pub use outputs::{Energy, Rate, Rates, Sample};
 pub use phase_tracker::PhaseTracker;
-pub use reset::MAX_RESTITUTION;
 pub use simulation::Simulation;
 pub use snapshot::Snapshot;
 pub use start::{InitialConditions, Start};

@@ -48,7 +48,7 @@ impl Modes {
         }
     }
 
-    /// The transition [[C, S], [C', S']] of position and velocity after `t` >= 0 seconds; C' = -b S.
+    /// The transition [[C, S], [C', S']] of the free motion's state after `t` >= 0 seconds; C' = -b S.
     ///
     /// Aperiodic: with E1 = exp(slow t), E2 = exp(fast t), S = E1 (1 - exp(-spread t)) / spread, C = E2 - fast S, S' =
     /// E2 + slow S; every difference of nearly equal terms is inside `exp_m1`.
@@ -102,6 +102,12 @@ impl Modes {
             ModeKind::Oscillating { .. } => (self.decay, self.decay),
             ModeKind::Aperiodic { slow, fast, .. } => ((-slow).max(0.0), -fast),
         }
+    }
+
+    /// Rate in 1/s of the slower mode, where the free motion dies out.
+    pub fn slowest_decay(&self) -> Option<f64> {
+        let (slow, _) = self.decay_rates();
+        (self.stiffness > 0.0 && slow > 0.0).then_some(slow)
     }
 
     /// Bounds (max |C|, max |S|) over 0 <= t <= `span`.

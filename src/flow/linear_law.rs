@@ -61,7 +61,7 @@ impl LinearLaw {
             frequency,
             steady: is_well_conditioned(&modes, impedance, frequency).then_some(response),
             // After 60 lifetimes nothing of a mode is left beside a motion 10^10 times smaller.
-            late: slowest_decay(&modes).map(|slow| (response, 60.0 / slow)),
+            late: modes.slowest_decay().map(|slow| (response, 60.0 / slow)),
             window,
             long_window: 1.0 / frequency,
             window_bounds: modes.solution_bounds(window),
@@ -71,17 +71,17 @@ impl LinearLaw {
         }
     }
 
-    /// The matrix d(x, v)(elapsed) / d(x, v)(0) of the free motion.
+    /// The matrix d(x, v)(elapsed) / d(x, v)(0) of the free motion by the linear law.
     pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
         self.modes.transition(elapsed)
     }
 
-    /// Damping over mass, 2 a, in 1/s.
+    /// Damping over mass of the linear law, 2 a, in 1/s.
     pub fn damping(&self) -> f64 {
         2.0 * self.modes.decay
     }
 
-    /// x'' in m/s^2 of a state under `forcing` per mass.
+    /// x'' in m/s^2 of a state by the linear law under `forcing` per mass.
     pub fn acceleration(&self, x: f64, v: f64, forcing: f64) -> f64 {
         forcing - 2.0 * self.modes.decay * v - self.modes.stiffness * x
     }
@@ -94,10 +94,4 @@ fn is_well_conditioned(modes: &Modes, impedance: f64, w: f64) -> bool {
     let resonant = impedance * MAX_DIGIT_LOSS < b.abs().max(w * w);
     let limp = b.abs() * MAX_DIGIT_LOSS < 4.0 * a * a || b == 0.0;
     !resonant && !limp
-}
-
-/// Rate in 1/s of the slower mode, where the free motion dies out.
-fn slowest_decay(modes: &Modes) -> Option<f64> {
-    let (slow, _) = modes.decay_rates();
-    (modes.stiffness > 0.0 && slow > 0.0).then_some(slow)
 }

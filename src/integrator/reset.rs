@@ -1,15 +1,12 @@
 //! The reset at a crossing: state, mode and kind right after it.
 
+use super::bounce_train::MAX_RESTITUTION;
 use super::crossing::CrossingKind;
 use super::motion::Motion;
 use super::start::Start;
 use crate::events::FoundCrossing;
 use crate::flow::{Chatter, PressingForces};
 use crate::phases::{Beyond, Exit, Mode, PhaseId, Phases, Sticking, Surface, SurfaceId};
-
-/// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
-/// to no end in finite time, as those on a preloaded stop, and in too many impacts for lanes.
-pub const MAX_RESTITUTION: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
 /// State, mode and kind right after a crossing.
 pub(crate) struct Reset {

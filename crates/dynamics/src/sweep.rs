@@ -27,9 +27,13 @@
 //! ```
 
 mod chain;
+mod coexistence;
 mod run_chains;
+mod sweep_step;
 
-pub use chain::{Chain, Coexistence, Jump, SweepStep, find_coexistences};
+pub use chain::{Chain, Jump};
+pub use coexistence::{Coexistence, find_coexistences};
+pub use sweep_step::SweepStep;
 
 use thiserror::Error;
 

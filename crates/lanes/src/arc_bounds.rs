@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2, Vector4};
 
-use super::cycle::CycleArc;
+use super::cycle::{Cycle, CycleArc};
 use super::cycle_state::Derivatives;
 
 /// Largest relative error that the bounds on an arc of a cycle allow first order: of a derivative over the time between the
@@ -142,5 +142,26 @@ impl CycleArc {
         let acceleration = self.damping * velocity + self.stiffness * position + force;
         let jerk = self.damping * acceleration + self.stiffness * velocity + force_rate;
         [position, velocity, acceleration, jerk].into()
+    }
+}
+
+impl Cycle {
+    /// True if no motion of the ball meets another guard than the cycle on an arc; `rest`: remainder at the crossing before.
+    pub fn arc_is_clear(
+        &self,
+        arc: &CycleArc,
+        ball: &Matrix2<f64>,
+        rest: &CrossingRemainder,
+        passed: &ArcBounds,
+    ) -> bool {
+        let windows = &self.windows.all[arc.windows.clone()];
+        windows.iter().enumerate().all(|(index, window)| {
+            let is_last = index + 1 == windows.len();
+            let late = if is_last { passed.late } else { 0.0 };
+            let deviation = passed.deviation(&window.at_start, ball, rest);
+            let time = window.step + late;
+            let most = arc.deviation_bounds(&deviation, time, window.growth, passed.delayed);
+            self.windows.is_clear(window, &(most + passed.moved * late))
+        })
     }
 }

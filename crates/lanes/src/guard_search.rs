@@ -160,7 +160,7 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
             let tops = goal.humps & zeros.sure;
             if tops.any() {
                 let height = local_taylor::value_at(&local, zeros.time);
-                self.decide_at_maximum(left, tops, height, ahead.span, &mut goal);
+                self.search_from_maximum(left, tops, height, ahead.span, &mut goal);
             }
         }
     }
@@ -168,7 +168,7 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
     /// Decides lanes whose guard's maximum is found: below zero there is no crossing, above zero it is searched next, too close
     /// to tell is left to the safe engine.
     #[inline(always)]
-    fn decide_at_maximum(
+    fn search_from_maximum(
         &self,
         left: Pair<S, N>,
         tops: Mask<S, N>,

@@ -9,8 +9,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::arc_bounds::{ArcBounds, CrossingRemainder};
-use super::cycle::{Cycle, CycleArc};
+use super::arc_bounds::CrossingRemainder;
+use super::cycle::Cycle;
 
 /// Bounds on velocity and drive angle of the next return of any motion in a ball about a cycle: on what the linear map and what
 /// rounding leave out.
@@ -48,25 +48,6 @@ impl Cycle {
                 rest = arc.remainder_at_exit(&rest, &passed.left_out);
                 is_clear
             })
-        })
-    }
-
-    /// True if no motion of the ball meets another guard than the cycle on an arc; `rest`: remainder at the crossing before.
-    fn arc_is_clear(
-        &self,
-        arc: &CycleArc,
-        ball: &Matrix2<f64>,
-        rest: &CrossingRemainder,
-        passed: &ArcBounds,
-    ) -> bool {
-        let windows = &self.windows.all[arc.windows.clone()];
-        windows.iter().enumerate().all(|(index, window)| {
-            let is_last = index + 1 == windows.len();
-            let late = if is_last { passed.late } else { 0.0 };
-            let deviation = passed.deviation(&window.at_start, ball, rest);
-            let time = window.step + late;
-            let most = arc.deviation_bounds(&deviation, time, window.growth, passed.delayed);
-            self.windows.is_clear(window, &(most + passed.moved * late))
         })
     }
 }

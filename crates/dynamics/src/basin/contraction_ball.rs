@@ -71,7 +71,7 @@ impl ContractionBall {
         w: f64,
         size: f64,
     ) -> Result<Option<Self>, MotionError> {
-        let Some((shape, rate)) = contracting_norm(&map.apply(centre)?.monodromy, w) else {
+        let Some((shape, rate)) = ball_norm(&map.apply(centre)?.monodromy, w) else {
             return Ok(None);
         };
         let Some(back) = shape.try_inverse() else {
@@ -117,9 +117,9 @@ fn largest_singular_value(matrix: &Matrix2<f64>) -> f64 {
         .sqrt()
 }
 
-/// A norm |L s| in which a stable matrix M contracts, with its factor g half-way between the largest multiplier of M and 1: L^T L
-/// = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M is stable.
-fn contracting_norm(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
+/// The norm |L s| of a contraction ball, in which its stable matrix M contracts, with the factor g half-way between the largest
+/// multiplier of M and 1: L^T L = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M is stable.
+fn ball_norm(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
     let spectral = multipliers(matrix)[0].norm();
     let rate = 0.5 * (1.0 + spectral);
     if spectral.is_nan() || spectral >= 1.0 {
@@ -147,10 +147,10 @@ mod tests {
     fn in_its_norm_a_matrix_contracts() {
         // Far from normal: its plain norm is 50.
         let matrix = Matrix2::new(0.9, 50.0, 0.0, -0.8);
-        let (shape, rate) = contracting_norm(&matrix, 1.3).expect("stable");
+        let (shape, rate) = ball_norm(&matrix, 1.3).expect("stable");
         let back = shape.try_inverse().expect("regular");
         let norm = largest_singular_value(&(shape * matrix * back));
         assert!(norm < rate && rate < 1.0, "{norm} {rate}");
-        assert!(contracting_norm(&Matrix2::new(1.01, 0.0, 0.0, 0.1), 1.0).is_none());
+        assert!(ball_norm(&Matrix2::new(1.01, 0.0, 0.0, 0.1), 1.0).is_none());
     }
 }

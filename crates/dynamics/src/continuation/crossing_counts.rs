@@ -34,12 +34,12 @@ impl CrossingCounts {
         self.jump_counts() == other.jump_counts() && self.rests == other.rests
     }
 
-    /// True if a sequence continues another: no other jumps of the force, and as many impacts.
+    /// True if a sequence of crossings continues another: no other jumps of the force, and as many impacts.
     pub fn continues(&self, other: &Self) -> bool {
         self.impacts == other.impacts && self.has_same_jumps(other)
     }
 
-    /// The border collision that lies between orbits of two sequences.
+    /// The border collision between orbits of two sequences of crossings.
     pub fn border_to(&self, other: &Self) -> Option<BorderCollision> {
         let ([surfaces, turns], [others, other_turns]) = (self.jump_counts(), other.jump_counts());
         if (self.holds, self.rests) != (other.holds, other.rests) {
@@ -195,4 +195,26 @@ fn passes_surface(crossing: &Crossing) -> bool {
         crossing.kind,
         CrossingKind::Surface { .. } | CrossingKind::Rebound { .. }
     )
+}
+
+/// How many crossings die with one at a time in s: a rebound with the rest after it, or all up to the way back.
+pub(super) fn crossings_dying_with(motion: &Trajectory, time: f64) -> usize {
+    let all: Vec<&Crossing> = motion.crossings().collect();
+    let is_it = |one: &&Crossing| motion.clock.time(one.instant) == time;
+    let Some(index) = all.iter().position(is_it) else {
+        return 0;
+    };
+    let Crossing { kind, position, .. } = *all[index];
+    let (before, after) = (&all[..index], &all[index + 1..]);
+    if matches!(kind, CrossingKind::Rebound { .. }) {
+        let rests = |kind| matches!(kind, CrossingKind::Rest | CrossingKind::Release);
+        return 1 + after.iter().take_while(|one| rests(one.kind)).count();
+    }
+    let same = |one: &&Crossing| one.position == position;
+    let ways = [
+        after.iter().position(same),
+        before.iter().rev().position(same),
+    ];
+    let between = ways.into_iter().flatten().min();
+    between.map_or(1, |between| between + 2)
 }

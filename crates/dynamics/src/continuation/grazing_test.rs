@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
+use super::crossing_counts::crossings_dying_with;
 use super::equations::CurveNode;
 use super::impact_section_orbit::ImpactSectionOrbit;
 use super::impact_section_system::ImpactSectionSystem;
@@ -13,7 +14,7 @@ use super::switching_surface::NearGrazing;
 use super::{BranchPoint, Family, GrazingTouch, SpecialKind, SpecialPoint, SwitchingSurface};
 use crate::orbit::OrbitError;
 use softstop::internals::turning_points;
-use softstop::{Crossing, CrossingKind, Scene, Trajectory};
+use softstop::{CrossingKind, Scene, Trajectory};
 
 /// A grazing test of an orbit: its slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
@@ -48,7 +49,7 @@ impl GrazingTest {
         let scene = &motion.scene;
         let taken = round
             .slowest
-            .map_or(0, |touch| crossings_with(motion, touch.time));
+            .map_or(0, |touch| crossings_dying_with(motion, touch.time));
         Self {
             dying: round.slowest,
             continuous: SwitchingSurface::ALL.map(|surface| surface.is_force_continuous(scene)),
@@ -238,26 +239,4 @@ fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearGrazing> {
             false => known,
         }
     })
-}
-
-/// How many crossings die with one at a time in s: a rebound with the rest after it, or all up to the way back.
-fn crossings_with(motion: &Trajectory, time: f64) -> usize {
-    let all: Vec<&Crossing> = motion.crossings().collect();
-    let is_it = |one: &&Crossing| motion.clock.time(one.instant) == time;
-    let Some(index) = all.iter().position(is_it) else {
-        return 0;
-    };
-    let Crossing { kind, position, .. } = *all[index];
-    let (before, after) = (&all[..index], &all[index + 1..]);
-    if matches!(kind, CrossingKind::Rebound { .. }) {
-        let rests = |kind| matches!(kind, CrossingKind::Rest | CrossingKind::Release);
-        return 1 + after.iter().take_while(|one| rests(one.kind)).count();
-    }
-    let same = |one: &&Crossing| one.position == position;
-    let ways = [
-        after.iter().position(same),
-        before.iter().rev().position(same),
-    ];
-    let between = ways.into_iter().flatten().min();
-    between.map_or(1, |between| between + 2)
 }

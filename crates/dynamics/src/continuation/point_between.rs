@@ -25,7 +25,7 @@ impl Continuation<'_> {
         test: TestFunction,
     ) -> Result<BranchPoint, OrbitError> {
         self.find_at_clear_section(from, to, |continuation, ends| {
-            continuation.critical_of_nodes(ends, test)
+            continuation.critical_between_nodes(ends, test)
         })
     }
 
@@ -47,7 +47,7 @@ impl Continuation<'_> {
     }
 
     /// The point between two nodes at which a test vanishes.
-    fn critical_of_nodes(
+    fn critical_between_nodes(
         &self,
         ends: StepEnds<'_, PeriodMap>,
         test: TestFunction,

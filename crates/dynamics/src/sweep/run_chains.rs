@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::chain::SweepStep;
+use super::sweep_step::SweepStep;
 use super::{Chain, Plan};
 use crate::ensemble::{Ensemble, Member};
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
