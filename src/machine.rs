@@ -165,7 +165,7 @@ impl Machine {
         self.set(Parameter::Frequency, self.to_own(dimension, frequency));
     }
 
-    /// Checks every value against its range, as its user states it.
+    /// Checks every value of the machine against its range, as its user states it.
     ///
     /// # Errors
     /// [`SceneError`] naming the first parameter that is out of range.
@@ -234,7 +234,7 @@ impl Machine {
         })
     }
 
-    /// The name of a parameter in its own units.
+    /// The name of a parameter of the machine in its own units.
     pub fn name(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Frequency if self.unit_system == UnitSystem::Hertz => keys::FREQUENCY_HZ,

@@ -157,7 +157,7 @@ pub struct Phases {
 }
 
 impl Phases {
-    /// These laws under another drive.
+    /// These phases under another drive.
     pub(crate) fn with_drive(&self, drive: &Excitation) -> Self {
         let mut phases = self.clone();
         (phases.amplitude, phases.frequency) = (drive.amplitude / self.mass, drive.frequency);
@@ -243,7 +243,7 @@ impl Phases {
 }
 
 impl Phase {
-    /// Force of stop and strip on the mass in N, F in m x'' + b1 x' + k1 x + F = F0 cos(w t):
+    /// Force of stop and strip on the mass in a phase in N, F in m x'' + b1 x' + k1 x + F = F0 cos(w t):
     /// positive where it presses the mass back.
     pub fn contact_force(&self, position: f64, velocity: f64) -> f64 {
         self.contact.damping * velocity + self.contact.stiffness * position - self.contact.force
@@ -255,7 +255,7 @@ impl Phase {
             .map_or(0.0, |hertz| hertz.force(position, velocity))
     }
 
-    /// Acceleration in m/s^2 of any state under the external force `forcing` per mass.
+    /// Acceleration in m/s^2 of any state in this phase under the external force `forcing` per mass.
     pub fn acceleration(&self, position: f64, velocity: f64, forcing: f64, mass: f64) -> f64 {
         let force = self.law.force - self.hertz_force(position, velocity);
         self.flow

@@ -130,13 +130,13 @@ impl Scene {
         })
     }
 
-    /// Where the stop stands, in m: the clearance, or behind the strip.
+    /// Where the stop of the scene stands, in m: the clearance, or behind the strip.
     pub fn stop_position(&self) -> f64 {
         let behind = self.piercing.map_or(0.0, |p| p.thickness + p.travel);
         self.clearance + behind
     }
 
-    /// True if anything stands at the clearance.
+    /// True if anything stands at the scene's clearance.
     fn has_stop(&self) -> bool {
         self.stop != Stop::None || self.piercing.is_some() || self.rigid.is_some()
     }
@@ -162,7 +162,7 @@ impl Scene {
         (lowest, wall(self).unwrap_or(f64::INFINITY))
     }
 
-    /// The smaller clearance in m: how far a harmonic motion may swing before it meets a stop.
+    /// The smaller clearance of the scene in m: how far a harmonic motion may swing before it meets a stop.
     pub fn least_clearance(&self) -> f64 {
         match self.mirrored().filter(Self::has_stop) {
             Some(below) if self.has_stop() => self.clearance.min(below.clearance),

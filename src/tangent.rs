@@ -39,7 +39,7 @@ impl Default for Tangent {
 }
 
 impl Tangent {
-    /// Multiplies by the transition along an arc; `since`: seconds from where the drive angle is held to its start.
+    /// Multiplies the tangent by the transition along an arc; `since`: seconds from where the drive angle is held to its start.
     fn extend_along(&mut self, arc: &Arc<'_>, elapsed: f64, since: Option<f64>) -> Transition {
         let transition = match arc.phase {
             Some(_) => arc.course.state_transition(elapsed, since),

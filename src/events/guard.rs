@@ -26,7 +26,7 @@ impl Guard {
         level: 0.0,
     };
 
-    /// The position rises above `level` m.
+    /// The guard that the position rises above `level` m.
     pub const fn rising_to(level: f64) -> Self {
         Self {
             position: 1.0,
@@ -35,7 +35,7 @@ impl Guard {
         }
     }
 
-    /// The position falls below `level` m.
+    /// The guard that the position falls below `level` m.
     pub const fn falling_to(level: f64) -> Self {
         Self {
             position: -1.0,
@@ -44,7 +44,7 @@ impl Guard {
         }
     }
 
-    /// The velocity turns from positive to negative.
+    /// The guard that the velocity turns from positive to negative.
     pub const fn turning_back() -> Self {
         Self {
             velocity: -1.0,
@@ -52,7 +52,7 @@ impl Guard {
         }
     }
 
-    /// The velocity turns from negative to positive.
+    /// The guard that the velocity turns from negative to positive.
     pub const fn turning_forward() -> Self {
         Self {
             velocity: 1.0,
@@ -60,7 +60,7 @@ impl Guard {
         }
     }
 
-    /// The forcing per mass rises above `level` m/s^2.
+    /// The guard that the forcing per mass rises above `level` m/s^2.
     pub const fn forcing_above(level: f64) -> Self {
         Self {
             forcing: 1.0,
@@ -69,7 +69,7 @@ impl Guard {
         }
     }
 
-    /// The forcing per mass falls below `level` m/s^2.
+    /// The guard that the forcing per mass falls below `level` m/s^2.
     pub const fn forcing_below(level: f64) -> Self {
         Self {
             forcing: -1.0,
@@ -96,7 +96,7 @@ impl Guard {
         }
     }
 
-    /// The rounding that g may carry in a state under a forcing per mass.
+    /// The rounding that the guard g may carry in a state under a forcing per mass.
     pub(super) fn rounding_at(&self, position: f64, velocity: f64, forcing: f64) -> f64 {
         let terms = [
             self.position * position,
@@ -107,7 +107,7 @@ impl Guard {
         2.0 * f64::EPSILON * terms.iter().map(|term| term.abs()).sum::<f64>() + f64::MIN_POSITIVE
     }
 
-    /// True if g depends on the position alone.
+    /// True if the guard g depends on the position alone.
     pub(super) fn is_of_position(&self) -> bool {
         self.velocity == 0.0 && self.forcing == 0.0
     }
@@ -117,7 +117,7 @@ impl Guard {
         self.position * position + self.velocity * velocity - self.level
     }
 
-    /// True if bounds on position and forcing from `node` to the end of time prove that g stays below zero.
+    /// True if bounds on position and forcing from `node` to the end of time prove that the guard g stays below zero.
     pub(crate) fn is_out_of_reach(&self, course: &ArcSolution, node: &ScanNode) -> bool {
         if self.velocity != 0.0 {
             return false;
@@ -136,7 +136,7 @@ impl Guard {
             < self.level
     }
 
-    /// Taylor coefficients of g about the instant of these polynomials of position and forcing.
+    /// Taylor coefficients of the guard g about the instant of these polynomials of position and forcing.
     pub(crate) fn taylor_coefficients(&self, taylor: &TaylorPolynomials) -> [f64; DEGREE + 1] {
         let (x, q) = (&taylor.position, &taylor.forcing);
         let mut g: [f64; DEGREE + 1] =

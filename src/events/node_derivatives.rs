@@ -55,7 +55,7 @@ impl NodeDerivatives {
         }
     }
 
-    /// Taylor coefficients of the position in m/s^n.
+    /// Taylor coefficients of the position about this node in m/s^n.
     pub fn position_series(&self) -> [f64; 6] {
         std::array::from_fn(|n| self.position[n] * INVERSE_FACTORIALS[n])
     }

@@ -151,7 +151,7 @@ fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
 /// Most steps of Newton's method.
 const MAX_NEWTON_STEPS: usize = 8;
 
-/// Value and first derivative at `s` of the series of a guard or a position, of degree 5.
+/// Value and first derivative at `s` of the series of a guard or a position about a single rise, of degree 5.
 #[inline]
 fn quintic_value_and_rate(c: &[f64; 6], s: f64) -> (f64, f64) {
     let square = s * s;

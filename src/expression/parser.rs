@@ -51,14 +51,14 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes one of these signs, if it stands next in the text, and the space behind it.
+    /// Takes one of these signs of an expression, if it stands next, and the space behind it.
     fn take_sign(&mut self, signs: &[char]) -> Option<char> {
         let sign = self.rest.chars().next().filter(|it| signs.contains(it))?;
         self.take_bytes(sign.len_utf8());
         Some(sign)
     }
 
-    /// Takes so many bytes of the text and the space behind them.
+    /// Takes so many bytes of the text of an expression and the space behind them.
     fn take_bytes(&mut self, bytes: usize) -> &'a str {
         let (taken, rest) = self.rest.split_at(bytes);
         self.rest = rest.trim_start();
@@ -187,7 +187,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes a number, if one stands next in the text.
+    /// Takes a number, if one stands next in the text of the expression.
     fn parse_number(&mut self) -> Result<Option<f64>, String> {
         let is_start = |it: char| it.is_ascii_digit() || it == '.';
         if !self.rest.starts_with(is_start) {

@@ -111,7 +111,7 @@ impl ArcSolution {
         Self::with_form(flow, departure, Form::Chatter(chatter))
     }
 
-    /// The Taylor step that this motion is; none if it has another form.
+    /// The Taylor step that this arc is; none if it has another form.
     pub(crate) fn taylor_step(&self) -> Option<&TaylorStep> {
         match &self.form {
             Form::TaylorStep(step) => Some(step),
@@ -124,7 +124,7 @@ impl ArcSolution {
         self.chatter().is_some()
     }
 
-    /// The sum of the last bounces that this motion is; none if it has another form.
+    /// The sum of the last bounces that this arc is; none if it has another form.
     pub(crate) fn chatter(&self) -> Option<&Chatter> {
         match &self.form {
             Form::Chatter(chatter) => Some(chatter),
@@ -142,12 +142,12 @@ impl ArcSolution {
         Self::with_form(flow, departure, form)
     }
 
-    /// True if a state at any time costs no more than a few elementary functions.
+    /// True if a state of the arc at any time costs no more than a few elementary functions.
     pub(crate) fn is_closed_form(&self) -> bool {
         matches!(self.form, Form::Particular { .. })
     }
 
-    /// True if this is a Taylor step, which ends at its reach.
+    /// True if this arc is a Taylor step, which ends at its reach.
     pub fn is_series(&self) -> bool {
         matches!(self.form, Form::TaylorStep(_))
     }
@@ -161,7 +161,7 @@ impl ArcSolution {
         }
     }
 
-    /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive angle is `drive`.
+    /// Position in m and velocity in m/s of the arc, `elapsed` >= 0 seconds after departure, when the drive angle is `drive`.
     pub fn state_at(&self, elapsed: f64, drive: DriveAngle) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
@@ -201,7 +201,7 @@ impl ArcSolution {
         }
     }
 
-    /// Position and velocity of a linear law by its zero-state responses.
+    /// Position and velocity of the arc of a linear law by its zero-state responses.
     fn state_by_responses(&self, elapsed: f64) -> (f64, f64) {
         let (from, flow) = (&self.departure, &self.flow);
         let free = flow.modes.transition(elapsed) * Vector2::new(from.position, from.velocity);
@@ -214,7 +214,7 @@ impl ArcSolution {
         (state.x, state.y)
     }
 
-    /// Value in m/s^2 and rate of the forcing per mass without the drive, if linear, `elapsed` seconds after departure.
+    /// Value in m/s^2 and rate of the arc's forcing per mass without the drive, if linear, `elapsed` seconds after departure.
     pub(crate) fn linear_forcing_at(&self, elapsed: f64) -> (f64, f64) {
         let forcing = &self.departure.forcing;
         (forcing.value() + forcing.rate() * elapsed, forcing.rate())
@@ -236,7 +236,7 @@ impl ArcSolution {
         }
     }
 
-    /// Bounds in m/s^2 on the forcing per mass, drive included, to the end of time: infinite if the external force changes.
+    /// Bounds in m/s^2 on the arc's forcing per mass, drive included, to the end of time: infinite if the external force changes.
     pub(crate) fn forcing_range(&self) -> (f64, f64) {
         let forcing = &self.departure.forcing;
         if forcing.rate() == 0.0 {
@@ -246,7 +246,7 @@ impl ArcSolution {
         }
     }
 
-    /// The forcing per mass in m/s^2, drive included, `elapsed` seconds after departure.
+    /// The forcing per mass of the arc in m/s^2, drive included, `elapsed` seconds after departure.
     pub(crate) fn forcing_at(&self, elapsed: f64) -> f64 {
         if let Form::TaylorStep(step) = &self.form {
             return step.forcing_at(step.sigma_after(elapsed));
@@ -265,7 +265,7 @@ impl ArcSolution {
         }
     }
 
-    /// The drive `elapsed` seconds after departure.
+    /// The drive `elapsed` seconds after the arc's departure.
     pub(super) fn drive_at(&self, elapsed: f64) -> DriveAngle {
         let turn = DriveAngle::at(self.flow.frequency * elapsed);
         self.departure.drive.turned(turn)

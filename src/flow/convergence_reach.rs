@@ -78,7 +78,7 @@ fn reach_below_margin(series: &Series, lower: usize, margin: impl Fn(usize) -> f
     reach.exp2()
 }
 
-/// The binary logarithm of the size of a coefficient, at most a tenth too small; far below all others for zero.
+/// The binary logarithm of the size of a coefficient of a series, at most a tenth too small; far below all others for zero.
 fn binary_logarithm(coefficient: f64) -> f64 {
     const ONE: i64 = 1.0f64.to_bits() as i64;
     let bits = coefficient.abs().to_bits() as i64;

@@ -70,7 +70,7 @@ impl<const N: usize> Products<N> {
         std::array::from_fn(|n| sums[0][n] + sums[1][n])
     }
 
-    /// Replaces the k-th coefficients of the right factors, for the orders above k.
+    /// Replaces the k-th coefficients of the right factors of the paired products, for the orders above k.
     #[inline(always)]
     pub fn replace_right(&mut self, k: usize, right: PairedCoefficients<N>) {
         let place = match k {

@@ -17,12 +17,12 @@ impl Polynomial {
         Self { derivatives }
     }
 
-    /// `value` + `rate` t.
+    /// The polynomial `value` + `rate` t.
     pub const fn linear(value: f64, rate: f64) -> Self {
         Self::new([value, rate, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
-    /// The derivatives at t = 0, the value first.
+    /// The derivatives of the polynomial at t = 0, the value first.
     pub const fn derivatives(&self) -> &[f64; HIGHEST_ORDER + 1] {
         &self.derivatives
     }
@@ -33,26 +33,26 @@ impl Polynomial {
         self
     }
 
-    /// The value at t = 0.
+    /// The value of the polynomial at t = 0.
     #[inline]
     pub const fn value(&self) -> f64 {
         self.derivatives[0]
     }
 
-    /// The first derivative at t = 0.
+    /// The first derivative of the polynomial at t = 0.
     #[inline]
     pub const fn rate(&self) -> f64 {
         self.derivatives[1]
     }
 
-    /// True if no derivative of order 2 or higher is there.
+    /// True if the polynomial has no derivative of order 2 or higher.
     #[inline]
     pub fn is_linear(&self) -> bool {
         let higher = self.derivatives[2..].iter();
         !higher.fold(false, |some, derivative| some | (*derivative != 0.0))
     }
 
-    /// The value p(t).
+    /// The value p(t) of the polynomial.
     pub fn value_at(&self, t: f64) -> f64 {
         if self.is_linear() {
             self.value() + self.rate() * t
@@ -81,17 +81,17 @@ impl Polynomial {
         Self::new(self.derivatives.map(|derivative| derivative / mass)).with_derivative(0, value)
     }
 
-    /// -p(t).
+    /// The polynomial -p(t).
     pub(super) fn mirrored(&self) -> Self {
         Self::new(self.derivatives.map(|derivative| -derivative))
     }
 
-    /// A bound on the first derivative from 0 to `t`.
+    /// A bound on the first derivative of the polynomial from 0 to `t`.
     pub(crate) fn largest_rate(&self, t: f64) -> f64 {
         taylor_sum(&self.derivatives.map(f64::abs)[1..], t)
     }
 
-    /// Coefficients p_k / k! of t^k.
+    /// Coefficients p_k / k! of t^k in the polynomial.
     pub(super) fn taylor_coefficients(&self) -> [f64; HIGHEST_ORDER + 1] {
         let mut factorial = 1.0;
         std::array::from_fn(|k| {
@@ -103,7 +103,7 @@ impl Polynomial {
     }
 }
 
-/// Sum of d_k t^k / k!, the d_k being `derivatives`.
+/// The polynomial sum of d_k t^k / k!, the d_k being `derivatives`.
 fn taylor_sum(derivatives: &[f64], t: f64) -> f64 {
     let terms = derivatives.iter().enumerate().rev();
     terms.fold(0.0, |sum, (k, derivative)| {

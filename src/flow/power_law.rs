@@ -32,7 +32,7 @@ impl Default for PowerLaw {
 }
 
 impl PowerLaw {
-    /// Deflection in m, negative before the face.
+    /// Deflection in m of the power law, negative before the face.
     pub fn deflection(&self, position: f64) -> f64 {
         self.side * (position - self.origin)
     }
@@ -46,26 +46,26 @@ impl PowerLaw {
         }
     }
 
-    /// The factor 1 + lambda d' of the contact force, not below zero, at a velocity.
+    /// The factor 1 + lambda d' of the power law's contact force, not below zero, at a velocity.
     pub(crate) fn dissipation_factor(&self, velocity: f64) -> f64 {
         (1.0 + self.dissipation * (self.side * velocity)).max(0.0)
     }
 
-    /// Contact force in N against the direction of the position.
+    /// Contact force in N of the power law against the direction of the position.
     pub fn force(&self, position: f64, velocity: f64) -> f64 {
         let depth = self.deflection(position).max(0.0);
         let force = self.stiffness * depth.powf(self.exponent) * self.dissipation_factor(velocity);
         self.side * force
     }
 
-    /// Elastic energy in J of the contact, k d^(n+1) / (n+1).
+    /// Elastic energy in J of the power law's contact, k d^(n+1) / (n+1).
     pub fn energy(&self, position: f64) -> f64 {
         let depth = self.deflection(position).max(0.0);
         let raised = self.exponent + 1.0;
         self.stiffness * depth.powf(raised) / raised
     }
 
-    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m while it presses.
+    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of the power law while it presses.
     pub fn force_derivatives(&self, position: f64, velocity: f64) -> (f64, f64) {
         let depth = self.deflection(position).max(0.0);
         let grip = self.dissipation_factor(velocity);
@@ -94,7 +94,7 @@ impl PowerLaw {
         [2.0, 3.0, 4.0, 5.0].into_iter().find(is_whole)
     }
 
-    /// The factor kappa of d^n (1 + lambda v) in the contact force per mass.
+    /// The factor kappa of d^n (1 + lambda v) in the power law's contact force per mass.
     pub(super) fn factor(&self) -> f64 {
         self.stiffness / self.mass
     }

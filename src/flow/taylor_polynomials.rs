@@ -62,7 +62,7 @@ impl TaylorPolynomials {
         self
     }
 
-    /// The forcing per mass and the velocity at eight times, in s: Horner's rule on all of them side by side.
+    /// The forcing per mass and the velocity by the polynomials at eight times, in s: Horner's rule on all of them side by side.
     pub fn forcing_and_velocity(&self, times: [f64; 8]) -> [(f64, f64); 8] {
         let (mut forcing, mut velocity) = ([0.0; 8], [0.0; 8]);
         for n in (0..DEGREE).rev() {
@@ -75,7 +75,7 @@ impl TaylorPolynomials {
         std::array::from_fn(|lane| (forcing[lane], velocity[lane]))
     }
 
-    /// Position and velocity `s` seconds on.
+    /// Position and velocity `s` seconds on by the Taylor polynomials.
     pub fn state_after(&self, s: f64) -> (f64, f64) {
         value_and_rate(&self.position, s)
     }

@@ -120,7 +120,7 @@ impl TaylorStep {
         self.regularized.is_none() && self.depth[1..] == ZERO[1..]
     }
 
-    /// The series in sigma of the velocity in m/s.
+    /// The step's series in sigma of the velocity in m/s.
     pub(super) fn velocity_series(&self) -> Series {
         match &self.regularized {
             Some(regularized) => regularized.velocity,
@@ -128,7 +128,7 @@ impl TaylorStep {
         }
     }
 
-    /// The series in sigma of the time since departure in s.
+    /// The step's series in sigma of the time since departure in s.
     pub(super) fn time_in_sigma(&self) -> Series {
         match &self.regularized {
             Some(regularized) => regularized.time,
@@ -145,7 +145,7 @@ impl TaylorStep {
         derivative(&self.time_in_sigma())
     }
 
-    /// The series in sigma of d^n, the n-th power of the deflection, where the power law acts; else zero.
+    /// The step's series in sigma of d^n, the n-th power of the deflection, where the power law acts; else zero.
     pub(super) fn powers(&self) -> Series {
         match &self.regularized {
             _ if !self.is_pressed => ZERO,
@@ -192,12 +192,12 @@ impl TaylorStep {
         at
     }
 
-    /// Position in m and velocity in m/s at a time since departure.
+    /// Position in m and velocity in m/s on the step at a time since departure.
     pub fn state_after(&self, elapsed: f64) -> (f64, f64) {
         self.rounded_state(&self.state_on_step_after(elapsed))
     }
 
-    /// Position in m and velocity in m/s at sigma.
+    /// Position in m and velocity in m/s on the step at sigma.
     pub fn state_at(&self, sigma: f64) -> (f64, f64) {
         self.rounded_state(&self.state_on_step_at(sigma))
     }
@@ -248,7 +248,7 @@ impl TaylorStep {
         }
     }
 
-    /// What is known of the position at a time since departure beyond its rounded value.
+    /// What is known of the position on the step at a time since departure beyond its rounded value.
     pub fn fine_position_at(&self, elapsed: f64) -> FinePosition {
         let StateOnStep {
             deflection, low, ..
@@ -256,12 +256,12 @@ impl TaylorStep {
         FinePosition { deflection, low }
     }
 
-    /// Forcing per mass in m/s^2 at sigma.
+    /// Forcing per mass in m/s^2 on the step at sigma.
     pub fn forcing_at(&self, sigma: f64) -> f64 {
         self.side() * value(&self.forcing, sigma)
     }
 
-    /// Time since departure at sigma, in s.
+    /// Time since departure on the step at sigma, in s.
     pub fn time_at_sigma(&self, sigma: f64) -> f64 {
         match &self.regularized {
             Some(regularized) => value(&regularized.time, sigma),

@@ -28,7 +28,7 @@ pub struct Arc<'a> {
 }
 
 impl Arc<'_> {
-    /// The node `elapsed` seconds after the start, at the end of the arc or on the way.
+    /// The scan node `elapsed` seconds after the start, at the end of the arc or on the way.
     pub(super) fn node_after(&self, elapsed: f64) -> ScanNode {
         match self.end {
             Some((at, Start { position, velocity }, drive)) if at == elapsed => self
@@ -38,17 +38,17 @@ impl Arc<'_> {
         }
     }
 
-    /// When it began, in s since the clock's time 0.
+    /// When the arc began, in s since the clock's time 0.
     pub fn begin(&self) -> f64 {
         self.clock.time(self.start)
     }
 
-    /// The drive angle `elapsed` seconds after the start.
+    /// The drive angle `elapsed` seconds after the start of the arc.
     pub fn drive(&self, elapsed: f64) -> DriveAngle {
         self.clock.drive(self.clock.after(self.start, elapsed))
     }
 
-    /// The state `elapsed` seconds after the start.
+    /// The state `elapsed` seconds after the start of the arc.
     pub fn at(&self, elapsed: f64) -> Start {
         let (position, velocity) = self.course.state_at(elapsed, self.drive(elapsed));
         Start::new(position, velocity)

@@ -55,7 +55,7 @@ impl Clock {
         self.period
     }
 
-    /// Time in s that is too short to tell two instants apart.
+    /// Time in s that is too short for the clock to tell two instants apart.
     pub(super) fn resolution(&self) -> f64 {
         64.0 * f64::EPSILON * self.period()
     }
@@ -73,7 +73,7 @@ impl Clock {
         }
     }
 
-    /// Seconds since time 0.
+    /// Seconds of the clock since time 0.
     pub fn time(&self, at: Instant) -> f64 {
         at.cycles
             .mul_add(self.period, at.cycles.mul_add(self.period_low, at.offset))
@@ -114,7 +114,7 @@ impl Clock {
         }
     }
 
-    /// Seconds from one instant to another.
+    /// Seconds of the clock from one instant to another.
     #[inline]
     pub fn elapsed(&self, from: Instant, to: Instant) -> f64 {
         let cycles = to.cycles - from.cycles;
@@ -125,7 +125,7 @@ impl Clock {
         }
     }
 
-    /// The drive angle at an instant.
+    /// The drive angle at an instant of the clock.
     #[inline]
     pub fn drive(&self, at: Instant) -> DriveAngle {
         DriveAngle::at(self.frequency * at.offset + self.phase)

@@ -33,7 +33,7 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// These, and then those.
+    /// What passed over this stretch of time and the one that follows.
     #[must_use]
     pub fn and(&self, next: &Self) -> Self {
         let harder = |next: &Impact| self.hardest.is_none_or(|one| next.velocity > one.velocity);

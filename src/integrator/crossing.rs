@@ -35,7 +35,7 @@ pub enum CrossingKind {
 }
 
 impl CrossingKind {
-    /// True if it is an impact.
+    /// True if the crossing is an impact.
     pub const fn is_impact(self) -> bool {
         matches!(
             self,
@@ -43,7 +43,7 @@ impl CrossingKind {
         )
     }
 
-    /// True if a strip has been pierced through.
+    /// True if a strip has been pierced through at the crossing.
     pub const fn pierces(self) -> bool {
         matches!(
             self,
@@ -72,7 +72,7 @@ pub struct Crossing {
 }
 
 impl Crossing {
-    /// Kinetic energy in J that a mass loses: at a rebound, or when its bounce counts as rest.
+    /// Kinetic energy in J that a mass loses at the crossing: at a rebound, or when its bounce counts as rest.
     pub fn lost_energy(&self, mass: f64) -> f64 {
         // What summed bounces lose they lose on their way.
         if self.kind == CrossingKind::Rest {
@@ -82,7 +82,7 @@ impl Crossing {
         0.5 * mass * (self.velocity * self.velocity - after)
     }
 
-    /// True if a strip has been pierced through.
+    /// True if a strip has been pierced through at the crossing.
     pub fn pierces(&self) -> bool {
         self.kind.pierces()
     }

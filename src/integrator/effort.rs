@@ -13,7 +13,7 @@ pub struct Effort(u64);
 pub(super) const WINDOWS_PER_QUESTION: u32 = 1 << 20;
 
 impl Effort {
-    /// About as much as scanning this many windows of time costs. A window is the reciprocal of the fastest of drive
+    /// The effort that scanning this many windows of time costs, about. A window is the reciprocal of the fastest of drive
     /// and free motion; a crossing costs as much as 64 of them, a Taylor step as much as 128.
     pub const fn windows(windows: u64) -> Self {
         Self(windows)

@@ -36,10 +36,10 @@ use super::crossing::Crossing;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Observer {
-    /// An arc has ended `elapsed` seconds after its start.
+    /// Tells the observer that an arc has ended `elapsed` seconds after its start.
     fn arc(&mut self, _arc: &Arc<'_>, _elapsed: f64) {}
 
-    /// A crossing has happened.
+    /// Tells the observer that a crossing has happened.
     fn crossing(&mut self, _crossing: &Crossing) {}
 
     /// Whether to go on. Asked after each crossing and each step, and now and then on a long arc, with what

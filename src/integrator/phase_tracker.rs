@@ -51,12 +51,12 @@ impl PhaseTracker {
         })
     }
 
-    /// Time in s of the last crossing, or 0.
+    /// Time in s of the last crossing of the tracked motion, or 0.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// The state right after the last crossing.
+    /// The state right after the last crossing of the tracked motion.
     pub fn state(&self) -> Start {
         self.motion.state()
     }
@@ -76,12 +76,12 @@ impl PhaseTracker {
         &self.guards
     }
 
-    /// The impacts so far.
+    /// The impacts of the tracked motion so far.
     pub fn impacts(&self) -> &[Impact] {
         &self.impacts
     }
 
-    /// The impacts, at the end.
+    /// The impacts of the tracked motion, at the end.
     pub fn into_impacts(self) -> Vec<Impact> {
         self.impacts
     }

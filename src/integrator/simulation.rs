@@ -69,12 +69,12 @@ impl Simulation {
         })
     }
 
-    /// The parameters that hold now.
+    /// The parameters of the running machine that hold now.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The present time in s.
+    /// The present time in s of the running machine.
     pub fn time(&self) -> f64 {
         self.now
     }
@@ -120,7 +120,7 @@ impl Simulation {
         within_reach(self.motion.clock(), until, self.epoch)
     }
 
-    /// The motion now.
+    /// The motion of the running machine now.
     pub(crate) fn motion(&self) -> &Motion {
         &self.motion
     }

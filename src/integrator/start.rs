@@ -35,7 +35,7 @@ impl Start {
         Self { position, velocity }
     }
 
-    /// Refuses a state that is not finite.
+    /// Refuses a state to start from that is not finite.
     ///
     /// # Errors
     /// [`MotionError::NotFinite`] naming the component.

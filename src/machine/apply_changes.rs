@@ -202,7 +202,7 @@ fn is_slope_key(key: &str) -> bool {
     SlopeKey::parse(key).is_some()
 }
 
-/// Sets a number of a slope in the table of its stop.
+/// Applies the change of a number of a slope to the table of its stop.
 fn set_slope(
     stop: &mut Table,
     slope: &SlopeKey,
@@ -222,13 +222,13 @@ fn set_slope(
     Ok(())
 }
 
-/// What is wrong with a stop, in its keys.
+/// What is wrong with a stop after its changes, in its keys.
 fn stop_error(error: &toml::de::Error, stop: &str) -> MachineError {
     let words = with_near_word(error.message()).replace("field `", &format!("key `{stop}."));
     MachineError::Syntax(format!("{stop}: {words}"))
 }
 
-/// A value as it is written in a file; a word may do without quotation marks.
+/// The value of a change as it is written in a file; a word may do without quotation marks.
 fn parse_value(text: &str) -> Value {
     let parsed = format!("value = {text}").parse::<Table>();
     let value = parsed.ok().and_then(|mut table| table.remove("value"));

@@ -11,12 +11,12 @@ impl Machine {
         self.ties.tie_of(parameter).map(|tie| (tie.key, &*tie.text))
     }
 
-    /// The expression that a parameter follows, if it follows others.
+    /// The expression by which a parameter is tied to others, if it is.
     pub fn expression(&self, parameter: Parameter) -> Option<&str> {
         Some(&self.ties.tie_of(parameter)?.text)
     }
 
-    /// The parameters that follow another one, at once or by others.
+    /// The parameters that are tied to another one, at once or by others.
     pub fn followers(&self, of: Parameter) -> Vec<Parameter> {
         let mut all: Vec<Parameter> = self.ties_to(of).parameters().collect();
         all.sort();
@@ -125,7 +125,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Lets a parameter follow nothing any more.
+    /// Unties a parameter: it follows nothing any more.
     pub(super) fn untie_parameter(&mut self, parameter: Parameter) {
         self.ties.0.retain(|it| it.quantity.parameter != parameter);
     }
@@ -151,7 +151,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Sets all parameters that follow others.
+    /// Sets all parameters that are tied to others.
     pub(super) fn update_followers(&mut self) {
         self.update_preload();
         for index in 0..self.ties.0.len() {

@@ -132,14 +132,14 @@ fn collect_keys(
     }
 }
 
-/// Stands for the value of an expression until that is known.
+/// Stands for the value of an expression in a file until that is known.
 fn placeholder() -> DeValue<'static> {
     let table = DeTable::parse("number = 1.0").map(Spanned::into_inner);
     let value = table.ok().and_then(|mut table| table.remove("number"));
     value.map_or(DeValue::Boolean(false), Spanned::into_inner)
 }
 
-/// True if a number stands under this key.
+/// True if a number stands in a file under this key.
 fn is_number(key: &str) -> bool {
     Parameter::named(key).is_some() || [keys::FREQUENCY_HZ, keys::PRELOAD_DEFLECTION].contains(&key)
 }
@@ -170,7 +170,7 @@ fn refuse_unknown_keys(places: &[Place], language: UnitSystem) -> Result<(), Mac
     })
 }
 
-/// Refuses what is no number in a number's place.
+/// Refuses what is no number in a number's place in a file.
 fn refuse_non_numbers(places: &[Place]) -> Result<(), MachineError> {
     let wrong = |Place { key, line, word }: &Place| {
         Parameter::named(key)?;
@@ -183,7 +183,7 @@ fn refuse_non_numbers(places: &[Place]) -> Result<(), MachineError> {
     places.iter().find_map(wrong).map_or(Ok(()), Err)
 }
 
-/// The line of the parameter that is out of range.
+/// The line of the file with the parameter that is out of range.
 fn line_of(error: &SceneError, places: &[Place]) -> Option<usize> {
     let key = match error {
         SceneError::OutOfRange { name, .. } | SceneError::TimeScales { name, .. } => name,

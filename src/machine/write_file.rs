@@ -106,7 +106,7 @@ impl Machine {
         lines
     }
 
-    /// Adds what is no number of a stop: its model ahead of its numbers, the rest at the end.
+    /// Adds the lines of what is no number of a stop: its model ahead of its numbers, the rest at the end.
     fn add_words(&self, stop: &Stop, keys: WordKeys, lines: &mut Vec<Line>) {
         let [model, release_key, loading_key, unloading_key] = keys;
         let word = |word: &str| format!("\"{word}\"");
@@ -147,7 +147,7 @@ impl Machine {
     }
 }
 
-/// The shortest text that reads back as the same number.
+/// The shortest text to write that reads back as the same number.
 fn number_text(value: f64) -> String {
     format!("{value:?}")
 }

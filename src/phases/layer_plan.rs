@@ -171,7 +171,7 @@ fn stop_layers(
     }
 }
 
-/// The law under a stop's spring.
+/// The law of a layer under a stop's spring.
 fn spring_law(touching: LawCoefficients, spring: &SpringEnergy) -> LawCoefficients {
     LawCoefficients {
         stiffness: touching.stiffness + spring.stiffness,

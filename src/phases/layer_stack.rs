@@ -26,7 +26,7 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    /// The phase on the way towards the stop.
+    /// The phase of the layer on the way towards the stop.
     pub const fn inward_phase(self) -> PhaseId {
         if self.side < 0.0 {
             self.backward
@@ -35,7 +35,7 @@ impl Layer {
         }
     }
 
-    /// The phase on the way back.
+    /// The phase of the layer on the way back.
     pub const fn outward_phase(self) -> PhaseId {
         if self.side < 0.0 {
             self.forward

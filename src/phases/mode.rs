@@ -49,7 +49,7 @@ pub struct Sticking {
 }
 
 impl Sticking {
-    /// Between two laws that give way.
+    /// A mass that sticks between two laws that give way.
     pub(crate) const fn between(forward: PhaseId, backward: PhaseId) -> Self {
         Self {
             forward: Some(forward),
@@ -57,12 +57,12 @@ impl Sticking {
         }
     }
 
-    /// The phases in which it would leave.
+    /// The phases in which the sticking mass would leave.
     pub(crate) fn phases(self) -> impl Iterator<Item = PhaseId> {
         self.forward.into_iter().chain(self.backward)
     }
 
-    /// The one of its phases that is farther from the stop.
+    /// The one of the sticking mass's phases that is farther from the stop.
     pub(crate) fn outer_phase(self) -> PhaseId {
         self.phases()
             .min_by_key(|phase| phase.index())
@@ -77,7 +77,7 @@ impl Sticking {
 }
 
 impl Mode {
-    /// The phase in which it moves.
+    /// The phase in which the mass moves in this mode.
     pub fn phase(self) -> Option<PhaseId> {
         match self {
             Self::Moving(phase) => Some(phase),
@@ -85,7 +85,7 @@ impl Mode {
         }
     }
 
-    /// The phases in which it would leave, where it does not move in one.
+    /// The phases in which the mass would leave in this mode, where it does not move in one.
     pub(crate) fn sticking(self) -> Option<Sticking> {
         match self {
             Self::Moving(_) => None,

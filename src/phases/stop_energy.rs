@@ -39,7 +39,7 @@ impl StopEnergy {
         spring.force + spring.stiffness * (position - spring.origin) + hertz
     }
 
-    /// The elastic stiffness in N/m.
+    /// The elastic stiffness in N/m of the stop.
     pub fn stiffness_at(&self, position: f64) -> f64 {
         let hertz = self
             .hertz

@@ -58,7 +58,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// The SI unit.
+    /// The SI unit of a dimension.
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Mass => "kg",

@@ -31,7 +31,7 @@ pub struct Ratios {
 }
 
 impl Ratios {
-    /// The paper's unloaded regime at point A (eta = 1.15, rho = 10).
+    /// The ratios of the paper's unloaded regime at point A (eta = 1.15, rho = 10).
     pub const fn unloaded() -> Self {
         Self {
             frequency: 1.15,
@@ -45,20 +45,20 @@ impl Ratios {
         }
     }
 
-    /// The paper's loaded regime at point B (eta = 1.15, rho = 10).
+    /// The ratios of the paper's loaded regime at point B (eta = 1.15, rho = 10).
     pub const fn loaded() -> Self {
         let mut ratios = Self::unloaded();
         ratios.piercing = Some(Strip::PAPER);
         ratios
     }
 
-    /// This machine at another frequency eta.
+    /// These ratios at another frequency eta.
     #[must_use]
     pub const fn at_frequency(self, frequency: f64) -> Self {
         Self { frequency, ..self }
     }
 
-    /// This machine with another clearance rho.
+    /// These ratios with another clearance rho.
     #[must_use]
     pub const fn at_clearance(self, clearance: f64) -> Self {
         Self { clearance, ..self }

@@ -53,23 +53,23 @@ fn or_one(length: f64, other: f64) -> f64 {
 }
 
 impl Scales {
-    /// Length times rate, in m/s.
+    /// The scale of velocities, length times rate, in m/s.
     pub fn speed(&self) -> f64 {
         self.length * self.rate
     }
 
-    /// A state in these units.
+    /// A state in these scales.
     pub fn state(&self, state: &Vector2<f64>) -> Vector2<f64> {
         Vector2::new(state.x / self.length, state.y / self.speed())
     }
 
-    /// The Jacobian of a map of states in these units.
+    /// The Jacobian of a map of states in these scales.
     pub fn jacobian(&self, jacobian: &Matrix2<f64>) -> Matrix2<f64> {
         let [[xx, vx], [xv, vv]] = jacobian.data.0;
         Matrix2::new(xx, xv * self.rate, vx / self.rate, vv)
     }
 
-    /// What rounding alone may leave of P(s) - s in these units: that of the state, as the map stretches it.
+    /// What rounding alone may leave of P(s) - s in these scales: that of the state, as the map stretches it.
     pub fn map_rounding(&self, state: &Vector2<f64>, jacobian: &Matrix2<f64>) -> f64 {
         1e-13 * (1.0 + self.state(state).norm()) * (1.0 + self.jacobian(jacobian).norm())
     }

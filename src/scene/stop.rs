@@ -53,7 +53,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// The name of the law, as in TOML and in the FMU.
+    /// The name of the stop's law, as in TOML and in the FMU.
     pub const fn model(&self) -> &'static str {
         match self {
             Self::None => "none",
@@ -122,7 +122,7 @@ pub struct Below {
     pub stop: Stop,
 }
 
-/// Force in N at `deflection` >= 0 of a continuous chain of slopes that starts at zero.
+/// Force in N at `deflection` >= 0 of a stop with a continuous chain of slopes that starts at zero.
 pub fn force_of(slopes: &[Slope], deflection: f64) -> f64 {
     let ends = slopes.iter().skip(1).map(|next| next.from);
     slopes
@@ -132,7 +132,7 @@ pub fn force_of(slopes: &[Slope], deflection: f64) -> f64 {
         .sum()
 }
 
-/// The slope that holds from `deflection` on.
+/// The slope of a stop that holds from `deflection` on.
 pub(crate) fn stiffness_from(slopes: &[Slope], deflection: f64) -> f64 {
     let held = slopes.iter().rev().find(|slope| slope.from <= deflection);
     held.map_or(0.0, |slope| slope.stiffness)

@@ -25,12 +25,12 @@ impl Strip {
         travel: 0.5,
     };
 
-    /// Dry friction force in N of phase II while the mass moves on (eq. 2).
+    /// Dry friction force in N of the cut strip, phase II, while the mass moves on (eq. 2).
     pub fn cut_force_forward(&self) -> f64 {
         0.1 * self.thickness * (self.stiffness + self.friction)
     }
 
-    /// Dry friction force in N of phase II while the mass moves back (eq. 3).
+    /// Dry friction force in N of the cut strip, phase II, while the mass moves back (eq. 3).
     pub fn cut_force_backward(&self) -> f64 {
         -0.05 * self.thickness * (self.stiffness + self.friction)
     }

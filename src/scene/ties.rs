@@ -18,7 +18,7 @@ pub(crate) struct Tie {
 }
 
 impl Tie {
-    /// A preload that stays the same deflection of the stop.
+    /// The tie of a preload that stays the same deflection of the stop.
     pub fn of_deflection(deflection: f64) -> Self {
         Self {
             key: "stop.preload_deflection",
@@ -38,7 +38,7 @@ impl Tie {
         self.expression.eval(&values).value
     }
 
-    /// Sets the parameter in a scene.
+    /// Sets the tied parameter in a scene.
     pub fn apply_to(&self, scene: &mut Scene) {
         let value = self.value_in(scene) * self.quantity.unit_in(scene);
         self.quantity.parameter.set(scene, value);
@@ -63,7 +63,7 @@ impl Tie {
         by_terms.sum::<f64>() * self.quantity.unit_in(scene) + own.value * of_unit(self.quantity)
     }
 
-    /// True if its expression has one of these parameters.
+    /// True if the tie's expression has one of these parameters.
     pub fn follows_any(&self, parameters: &[Parameter]) -> bool {
         let mut terms = self.terms.iter();
         terms.any(|term| parameters.contains(&term.parameter))
@@ -78,12 +78,12 @@ impl Ties {
     /// No parameter follows others.
     pub const NONE: Self = Self(Vec::new());
 
-    /// True if no parameter follows others.
+    /// True if there is no tie: no parameter follows others.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The parameters that follow others.
+    /// The tied parameters, which follow others.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
         self.0.iter().map(|tie| tie.quantity.parameter)
     }

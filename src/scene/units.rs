@@ -24,12 +24,12 @@ impl Units {
         force: 1.0,
     };
 
-    /// Static deflection F0/k1 in m.
+    /// The unit of length, the static deflection F0/k1, in m.
     pub fn length(&self) -> f64 {
         self.force / self.stiffness
     }
 
-    /// Omega = sqrt(k1/m) in rad/s.
+    /// The unit of frequency, Omega = sqrt(k1/m), in rad/s.
     pub fn frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }

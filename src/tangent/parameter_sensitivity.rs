@@ -22,7 +22,7 @@ pub struct ParameterSensitivity<'a> {
 }
 
 impl<'a> ParameterSensitivity<'a> {
-    /// At the start of a motion of `phases`.
+    /// The sensitivity at the start of a motion of `phases`.
     pub fn new(phases: &'a Phases, by: &'a [PhaseDerivatives]) -> Self {
         let mut columns = vec![StateAndSupply::zeros(); 2 + by.len()];
         (columns[0].x, columns[1].y) = (1.0, 1.0);
@@ -37,7 +37,7 @@ impl<'a> ParameterSensitivity<'a> {
         }
     }
 
-    /// The columns after the arc or the crossing told last; none where the motion has no derivatives.
+    /// The sensitivity's columns after the arc or crossing told last; none where the motion has no derivatives.
     pub fn columns(&self) -> Option<&[StateAndSupply]> {
         let finite = |column: &StateAndSupply| column.iter().all(|part| part.is_finite());
         (self.is_known && self.columns.iter().all(finite)).then_some(&self.columns)

@@ -41,7 +41,7 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// True if the motions run in the SIMD lanes, so that many cost little.
+    /// True if the ensemble's motions run in the SIMD lanes, so that many cost little.
     pub(crate) fn runs_in_lanes(&self) -> bool {
         self.machines[0].is_for_lanes()
     }
@@ -51,7 +51,7 @@ impl<'a> Ensemble<'a> {
         self.machines[0].skips_periods()
     }
 
-    /// The work that was counted so far, in the caller's unit: drive periods, or cells.
+    /// The work of the ensemble that was counted so far, in the caller's unit: drive periods, or cells.
     pub(crate) fn work_done(&self) -> u64 {
         self.done.load(Ordering::Relaxed)
     }

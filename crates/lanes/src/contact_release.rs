@@ -102,7 +102,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
     }
 }
 
-/// What the sizes of its terms prove of a series on [0, sigma].
+/// What the sizes of its terms prove of a contact's series on [0, sigma].
 #[inline(always)]
 fn prove_by_terms<S: Simd, const N: usize>(
     series: &Terms<S, N>,

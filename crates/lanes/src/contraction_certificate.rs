@@ -26,7 +26,7 @@ pub(super) struct ContractionCertificate {
 }
 
 impl ContractionCertificate {
-    /// True if the limit is known within the error that extrapolation allows.
+    /// True if the limit of the certificate is known within the error that extrapolation allows.
     pub fn is_exact(&self) -> bool {
         let moved = self.curvature * self.aside * self.aside / (1.0 - self.norm.rate_bound());
         moved * self.norm.largest_length() <= MAX_LIMIT_ERROR

@@ -51,7 +51,7 @@ pub(super) struct Derivatives {
 }
 
 impl Forcing {
-    /// cos + i sin of the drive angle `offset` seconds into a period.
+    /// cos + i sin of the drive angle `offset` seconds into a period of the cycle.
     pub fn angle_at(&self, offset: f64) -> Complex<f64> {
         self.begin * Complex::cis(self.frequency * offset)
     }

@@ -178,7 +178,7 @@ impl<S: Simd, const N: usize> DirectPath<S, N> {
     }
 }
 
-/// Value of a cubic at a time: value + time (first + time (second + time third)).
+/// Value of the cubic of a direct step at a time: value + time (first + time (second + time third)).
 #[inline(always)]
 fn cubic_value<S: Simd, const N: usize>(
     value: Lanes<S, N>,

@@ -125,7 +125,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         )
     }
 
-    /// The acceleration x'' of the whole motion.
+    /// The acceleration x'' of the whole motion, of both parts.
     #[inline(always)]
     pub fn acceleration(&self, law: &Laws<S, N>, frequency: Lanes<S, N>) -> Lanes<S, N> {
         let steady = -(frequency * frequency * self.p);
@@ -133,7 +133,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
             .mul_add(self.y, law.damping.mul_add(self.u, steady))
     }
 
-    /// The third and fourth derivative x''' and x'''' of the whole motion.
+    /// The third and fourth derivative x''' and x'''' of the whole motion, of both parts.
     #[inline(always)]
     pub fn jerk_and_snap(&self, law: &Laws<S, N>, frequency: Lanes<S, N>) -> Pair<S, N> {
         let turn = -(frequency * frequency);

@@ -74,7 +74,7 @@ pub(super) fn run_jobs<'a>(
     run_task(task, instructions)
 }
 
-/// Runs a task with lanes in [`REGISTERS_PER_BATCH`] registers.
+/// Runs a task by an instruction set with lanes in [`REGISTERS_PER_BATCH`] registers.
 fn run_task(task: Task, instructions: InstructionLimit) -> Vec<Outcome> {
     dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions)
 }

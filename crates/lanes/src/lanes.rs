@@ -66,13 +66,13 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
         Self::splat(self.simd, value)
     }
 
-    /// self * b + c, rounded once where the processor can.
+    /// self * b + c in every lane, rounded once where the processor can.
     #[inline(always)]
     pub fn mul_add(self, b: Self, c: Self) -> Self {
         each!(self => self.mul_add_e_f64s(b, c))
     }
 
-    /// self - b * c, rounded once where the processor can.
+    /// self - b * c in every lane, rounded once where the processor can.
     #[inline(always)]
     pub fn minus_product(self, b: Self, c: Self) -> Self {
         each!(self => b.negate_mul_add_e_f64s(c, self))

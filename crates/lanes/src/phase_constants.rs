@@ -279,14 +279,14 @@ impl PhaseConstants {
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
 
-    /// Position and velocity of the steady motion at a drive angle, given as cos + i sin.
+    /// Position and velocity of the phase's steady motion at a drive angle, given as cos + i sin.
     pub fn steady_state_at(&self, Complex { re: cos, im: sin }: Complex<f64>) -> Vector2<f64> {
         let p = self.cosine * cos + self.sine * sin;
         let q = self.cosine_rate * cos + self.sine_rate * sin;
         Vector2::new(p, q) * self.side
     }
 
-    /// Amplitude of the drive's force per mass at the frequency w, from that of the steady motion.
+    /// Amplitude of the drive's force per mass in the phase at the frequency w, from that of the steady motion.
     pub fn drive_acceleration(&self, w: f64) -> f64 {
         let (elastic, damped) = (self.stiffness + w * w, self.damping * w);
         self.swing * elastic.hypot(damped)

@@ -27,7 +27,7 @@ impl AttractorCatalogue {
         }
     }
 
-    /// The frequency of the scene's drive in rad/s.
+    /// The frequency of the drive of the catalogue's scene in rad/s.
     fn drive_frequency(&self) -> f64 {
         self.scene.excitation.frequency
     }

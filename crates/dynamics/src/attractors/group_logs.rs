@@ -72,7 +72,7 @@ fn plane_units(logs: &[&[Start]]) -> [f64; 2] {
     [range(|state| state.position), range(|state| state.velocity)]
 }
 
-/// Squared distance of two scaled states.
+/// Squared distance of two scaled states of logs.
 fn squared_distance(a: &ScaledState, b: &ScaledState) -> f64 {
     let (x, v) = (a[0] - b[0], a[1] - b[1]);
     x * x + v * v

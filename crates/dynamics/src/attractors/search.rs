@@ -170,7 +170,7 @@ impl<'a> Search<'a> {
         2 * self.options.longest + 1
     }
 
-    /// Drive periods for which wandering motions may be watched, all together.
+    /// Drive periods for which the search may watch wandering motions, all together.
     fn watch_periods(&self) -> u64 {
         match self.ensemble.runs_in_lanes() {
             true => self.options.patience,

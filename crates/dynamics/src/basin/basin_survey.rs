@@ -113,13 +113,13 @@ impl BasinSurvey<'_> {
         self.lost = earlier_lost(self.lost.take(), lost);
     }
 
-    /// Indices of the cells whose motions have not come to anything yet.
+    /// Indices of the cells of the survey whose motions have not come to anything yet.
     pub(super) fn open_cells(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == MemberStatus::Open)
     }
 }
 
-/// Of two lost cells the one with the smaller index.
+/// Of two lost cells of a survey the one with the smaller index.
 pub(super) fn earlier_lost(one: Option<LostCell>, other: Option<LostCell>) -> Option<LostCell> {
     one.into_iter().chain(other).min()
 }

@@ -52,7 +52,7 @@ impl BasinSurvey<'_> {
         Ok(basins)
     }
 
-    /// Enters the class of all cells for whose outcome `has_come` is true, if there are any.
+    /// Enters in the basins the class of all cells for whose outcome `has_come` is true, if there are any.
     fn enter_class(
         &self,
         basins: &mut Basins,

@@ -99,7 +99,7 @@ impl ErosionProfile {
         })
     }
 
-    /// `count` places of a hysteresis zone, evenly spaced from grazing (g0) to the fold (s_SN), both included.
+    /// `count` places of a profile along a hysteresis zone, evenly spaced from grazing (g0) to the fold (s_SN), both included.
     pub fn evenly_spaced_places(count: usize) -> Vec<f64> {
         let last = count.saturating_sub(1).max(1) as f64;
         (0..count).map(|place| place as f64 / last).collect()

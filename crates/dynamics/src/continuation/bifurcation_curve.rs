@@ -22,12 +22,12 @@ pub struct CurvePoint {
 }
 
 impl CurvePoint {
-    /// State of the orbit at time 0, position and velocity.
+    /// State of the orbit at this point of a curve at time 0, position and velocity.
     pub fn state(&self) -> Vector2<f64> {
         Vector2::new(self.position, self.velocity)
     }
 
-    /// The highest before-impact velocity of the orbit in m/s; 0 without any impact.
+    /// The highest before-impact velocity at this point of a curve in m/s; 0 without any impact.
     pub fn before_impact_velocity(&self) -> f64 {
         self.impacts.iter().copied().fold(0.0, f64::max)
     }

@@ -20,22 +20,22 @@ pub struct BranchPoint {
 }
 
 impl BranchPoint {
-    /// The highest before-impact velocity of the orbit in m/s; 0 without any impact.
+    /// The highest before-impact velocity at this point of a branch in m/s; 0 without any impact.
     pub fn before_impact_velocity(&self) -> f64 {
         self.impacts.iter().copied().fold(0.0, f64::max)
     }
 
-    /// State of the orbit at time 0, position and velocity.
+    /// State of the orbit at this point of a branch at time 0, position and velocity.
     pub fn state(&self) -> Vector2<f64> {
         Vector2::new(self.position, self.velocity)
     }
 
-    /// 1 - tr + det of the orbit: zero at a fold, positive on its stable side.
+    /// 1 - tr + det of the orbit at this point of a branch: zero at a fold, positive on its stable side.
     pub fn fold_test(&self) -> f64 {
         self.monodromy.fold_test()
     }
 
-    /// True if the orbit is stable.
+    /// True if the orbit at this point of a branch is stable.
     pub fn is_stable(&self) -> bool {
         self.monodromy.is_stable()
     }

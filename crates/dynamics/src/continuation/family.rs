@@ -22,7 +22,7 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     /// Typical changes of the family's parameters: with the sizes of the state, the units of the arclength.
     fn parameter_scales(&self) -> [f64; PARAMETERS];
 
-    /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: exact for orbits.
+    /// d(drive frequency in rad/s) / d(parameter) of each parameter of the family that changes nothing else: exact for orbits.
     fn by_frequency(&self) -> [Option<f64>; PARAMETERS] {
         [None; PARAMETERS]
     }

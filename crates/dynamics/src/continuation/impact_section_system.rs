@@ -168,7 +168,7 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
         DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
     }
 
-    /// The parameters of these unknowns, which are the last of them.
+    /// The parameters of these unknowns of the system, which are the last of them.
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
         self.family.unscaled_parameters(at.as_slice())
     }

@@ -14,16 +14,16 @@ use crate::orbit::{Monodromy, OrbitError};
 
 /// A system whose solutions are special points in two parameters, its last two unknowns: it makes a curve.
 pub(super) trait SpecialPointEquations: Equations {
-    /// The machines of the curve, and the drive periods of its orbits.
+    /// The machines of the curve of special points, and the drive periods of its orbits.
     fn family_and_periods(&self) -> (&dyn Family<2>, u64);
-    /// The test that vanishes on the curve; none on one of grazing.
+    /// The test that vanishes on the curve of special points; none on one of grazing.
     fn critical_test(&self) -> Option<TestFunction>;
-    /// The state of the orbit at time 0 for these unknowns.
+    /// The state of the special orbit at time 0 for these unknowns.
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
     /// The before-impact velocities of the orbit of a point, its Jacobian, and what it crosses.
     fn orbit_of(point: &Self::Point) -> (&[f64], Monodromy, CrossingCounts);
 
-    /// Values of the two parameters of these unknowns.
+    /// Values of the two parameters of these unknowns of a special point.
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
         let (family, _) = self.family_and_periods();
         family.unscaled_parameters(at.as_slice())

@@ -55,7 +55,7 @@ pub(crate) fn single_impact_orbits_near_impact(
     })
 }
 
-/// Scans the impact lattice of a scene for z = 1 orbits; none if the scene has no stop.
+/// A search for all z = 1 orbits over the impact lattice of a scene; none if the scene has no stop.
 fn search_whole_lattice(
     scene: &CheckedScene,
     monitor: Monitor<'_>,

@@ -80,13 +80,13 @@ impl FixedPointSearch {
         Ok(self.hardest_single())
     }
 
-    /// The stable z = 1 motion with the hardest impact met so far.
+    /// The stable z = 1 fixed point with the hardest impact met so far.
     pub fn hardest_single(&self) -> Option<Orbit> {
         let hardest = self.stable_singles().max_by(|a, b| a.compare_velocity(b));
         hardest.cloned()
     }
 
-    /// The stable motions with one impact per drive period met so far.
+    /// The stable fixed points with one impact per drive period met so far.
     fn stable_singles(&self) -> impl Iterator<Item = &Orbit> {
         let faintest = SAME * self.scales.speed();
         let is_single = move |orbit: &&Orbit| {

@@ -78,7 +78,7 @@ fn period_separation(instants: &[Instant], period: f64) -> f64 {
     }
 }
 
-/// The largest of all rotations of a list of counts.
+/// The largest of all rotations of a list of impact counts.
 fn largest_rotation(counts: &[ImpactCount]) -> Vec<ImpactCount> {
     let rotations = (0..counts.len()).map(|by| [&counts[by..], &counts[..by]].concat());
     rotations.max().unwrap_or_default()

@@ -63,7 +63,7 @@ impl Monodromy {
             .then_some(inverse)
     }
 
-    /// Floquet multipliers, the roots of mu^2 - trace mu + determinant, the one of larger modulus first.
+    /// Floquet multipliers of the monodromy matrix, the roots of mu^2 - trace mu + determinant, the one of larger modulus first.
     pub fn multipliers(&self) -> [Complex<f64>; 2] {
         quadratic_roots(self.trace(), self.determinant)
     }
@@ -76,7 +76,7 @@ impl Monodromy {
         self.fold_test() > 0.0 && 1.0 + trace + determinant > 0.0 && spirals_in
     }
 
-    /// True if both multipliers lie on the unit circle, as a stable motion's do without any damping.
+    /// True if both multipliers of the monodromy matrix lie on the unit circle, as a stable motion's do without any damping.
     pub fn is_neutral(&self) -> bool {
         self.is_stable() && (self.determinant - 1.0).abs() < TEST_ROUNDING
     }

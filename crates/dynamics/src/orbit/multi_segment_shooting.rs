@@ -86,7 +86,7 @@ impl MultiSegmentShooting {
         })
     }
 
-    /// The drive periods of the orbit, in s.
+    /// The drive periods of the orbit of the shooting, in s.
     pub(super) fn span(&self) -> f64 {
         self.clearance.clock.time(Clock::at_cycle(self.periods))
     }
@@ -183,7 +183,7 @@ impl MultiSegmentShooting {
         self.scales.state(&gap)
     }
 
-    /// True if the residual is no more than a share of what rounding alone may leave.
+    /// True if the residual of the shooting is no more than a share of what rounding alone may leave.
     fn is_solved(&self, at: &ImpactUnknowns, evaluation: &ShootingEvaluation, share: f64) -> bool {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
