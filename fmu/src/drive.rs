@@ -169,7 +169,7 @@ impl Drive {
 
     /// True if it turns with a constant speed.
     fn is_steady(&self) -> bool {
-        is_constant(&self.speed)
+        self.speed.is_constant()
     }
 
     /// True if it turns with a constant speed and amplitude, as an engine's drive does.
@@ -181,7 +181,7 @@ impl Drive {
     pub fn varies(&self) -> bool {
         let speed = self.speed.value().abs();
         let crawls = speed > 0.0 && speed < SLOWEST * self.frequency;
-        crawls || !self.is_steady() || !is_constant(&self.amplitude)
+        crawls || !self.is_steady() || !self.amplitude.is_constant()
     }
 
     /// Where the piece ends that begins at `time`, not after `until`.
@@ -204,8 +204,8 @@ impl Drive {
 
     /// Value and derivatives of the force in N at a time.
     pub fn force_at(&self, time: f64) -> Polynomial {
-        let turning = coefficients(&self.speed_at(time));
-        let amplitude = coefficients(&self.amplitude_at(time));
+        let turning = self.speed_at(time).taylor_coefficients();
+        let amplitude = self.amplitude_at(time).taylor_coefficients();
         let (mut cos, mut sin) = (Derivatives::default(), Derivatives::default());
         (sin[0], cos[0]) = self.angle_at(time).sin_cos();
         for k in 0..cos.len() - 1 {
@@ -257,19 +257,6 @@ impl Drive {
     }
 }
 
-fn is_constant(of: &Polynomial) -> bool {
-    of.is_linear() && of.rate() == 0.0
-}
-
 fn constant(value: f64) -> Derivatives {
     *Polynomial::linear(value, 0.0).derivatives()
-}
-
-/// Coefficients of t^k.
-fn coefficients(of: &Polynomial) -> Derivatives {
-    let mut factorial = 1.0;
-    std::array::from_fn(|k| {
-        factorial *= k.max(1) as f64;
-        of.derivatives()[k] / factorial
-    })
 }

@@ -45,14 +45,14 @@ impl External {
     pub fn set_force(&mut self, now: f64, position: f64, mass: f64, force: Derivatives) {
         self.settle(now, position, mass);
         self.force = Polynomial::new(force);
-        self.varies = varies(&self.force) || varies(&self.base);
+        self.varies = !(self.force.is_constant() && self.base.is_constant());
     }
 
     /// Sets the acceleration of the frame.
     pub fn set_base(&mut self, now: f64, position: f64, mass: f64, base: Derivatives) {
         self.settle(now, position, mass);
         self.base = Polynomial::new(base);
-        self.varies = varies(&self.force) || varies(&self.base);
+        self.varies = !(self.force.is_constant() && self.base.is_constant());
     }
 
     fn settle(&mut self, now: f64, position: f64, mass: f64) {
@@ -79,8 +79,4 @@ impl External {
         let force = self.force.value() - mass * self.base.value();
         self.work + force * (position - self.place)
     }
-}
-
-fn varies(of: &Polynomial) -> bool {
-    of.rate() != 0.0 || !of.is_linear()
 }

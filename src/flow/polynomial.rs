@@ -91,8 +91,13 @@ impl Polynomial {
         taylor_sum(&self.derivatives.map(f64::abs)[1..], t)
     }
 
+    /// True if the polynomial does not change with time.
+    pub fn is_constant(&self) -> bool {
+        self.is_linear() && self.rate() == 0.0
+    }
+
     /// Coefficients p_k / k! of t^k in the polynomial.
-    pub(super) fn taylor_coefficients(&self) -> [f64; HIGHEST_ORDER + 1] {
+    pub fn taylor_coefficients(&self) -> [f64; HIGHEST_ORDER + 1] {
         let mut factorial = 1.0;
         std::array::from_fn(|k| {
             if k > 1 {

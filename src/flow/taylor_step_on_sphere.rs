@@ -14,7 +14,7 @@ use super::{Departure, LinearLaw};
 
 /// True if the contact law is that of Hertz for a sphere, n = 3/2, and the forcing beside the drive is constant.
 pub(super) fn is_sphere(hertz: &PowerLaw, from: &Departure) -> bool {
-    hertz.exponent == 1.5 && from.forcing.is_linear() && from.forcing.rate() == 0.0
+    hertz.exponent == 1.5 && from.forcing.is_constant()
 }
 
 impl TaylorStep {

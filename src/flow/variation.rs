@@ -122,7 +122,7 @@ impl ArcSolution {
     /// whose variations are those by a constant forcing, and under a forcing that is not constant.
     fn frequency_variation_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
         let forcing = &self.departure.forcing;
-        if step.slow_manifold.is_some() || !forcing.is_linear() || forcing.rate() != 0.0 {
+        if step.slow_manifold.is_some() || !forcing.is_constant() {
             return None;
         }
         let mut time = step.time_in_sigma();

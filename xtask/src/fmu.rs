@@ -54,12 +54,7 @@ fn write_all(
         write::<Feeder>(standard, &feeder)?;
         write::<Machine>(standard, &press)?;
         let path = place("piercing-machine", standard, "ssp");
-        let libraries = system::Libraries {
-            drive,
-            feeder,
-            press,
-        };
-        system::write(&path, standard, &libraries)?;
+        system::write(&path, standard, [&drive, &feeder, &press])?;
         say(&path)?;
     }
     Ok(place(Machine::about().identifier, Standard::Fmi2, "fmu"))

@@ -18,13 +18,6 @@ const DESIGN: &str = include_str!("../../docs/system/design.toml");
 /// Torque at rest of the motor in N m.
 const TORQUE: f64 = 60.0;
 
-/// The libraries of the three units.
-pub struct Libraries {
-    pub drive: Vec<Library>,
-    pub feeder: Vec<Library>,
-    pub press: Vec<Library>,
-}
-
 /// One machine: its name, and its units as they begin.
 struct Variant {
     name: &'static str,
@@ -33,8 +26,8 @@ struct Variant {
 }
 
 /// Writes the system, by SSP 1.0 with units for FMI 2.0 and by SSP 2.0 with those for FMI 3.0; the units inside begin as the
-/// machine B.
-pub fn write(path: &Path, standard: Standard, libraries: &Libraries) -> Result<()> {
+/// machine B. Libraries are those of drive, feeder and press.
+pub fn write(path: &Path, standard: Standard, libraries: [&[Library]; 3]) -> Result<()> {
     let sample =
         |of: &MachineSample| anyhow::Ok((of.ratios.scene()?, Start::new(of.position, of.velocity)));
     let design = Machine::from_toml(DESIGN)?;
@@ -53,9 +46,9 @@ pub fn write(path: &Path, standard: Standard, libraries: &Libraries) -> Result<(
     let press = press.clone().named("press")?;
     let mut entries = vec![
         ("SystemStructure.ssd".to_owned(), structure.into_bytes()),
-        unit("press", standard, &press, &libraries.press)?,
-        unit("drive", standard, drive, &libraries.drive)?,
-        unit("feeder", standard, &feeder, &libraries.feeder)?,
+        unit("press", standard, &press, libraries[2])?,
+        unit("drive", standard, drive, libraries[0])?,
+        unit("feeder", standard, &feeder, libraries[1])?,
     ];
     entries.extend(sets(&variants, "press", |of| &of.press)?);
     entries.extend(sets(&variants, "drive", |of| &of.drive)?);

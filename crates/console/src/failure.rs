@@ -46,6 +46,17 @@ impl Failure {
     }
 }
 
+/// Ends a run that the user asked to end.
+///
+/// # Errors
+/// [`Failure::Interrupted`] after Ctrl-C.
+pub fn check_interrupt() -> Result<(), Failure> {
+    match interrupt::requested() {
+        true => Err(Failure::Interrupted),
+        false => Ok(()),
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

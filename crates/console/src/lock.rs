@@ -49,21 +49,15 @@ pub fn refusal(place: &Path) -> Failure {
     Failure::Run(anyhow!("{place}: is written by another run that goes on"))
 }
 
-#[cfg(unix)]
 fn options(create: bool) -> OpenOptions {
-    use std::os::unix::fs::OpenOptionsExt;
-
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(create);
     // A pipe in its place must not make the run wait.
-    options.custom_flags(libc::O_NOFOLLOW | libc::O_NONBLOCK);
-    options
-}
-
-#[cfg(not(unix))]
-fn options(create: bool) -> OpenOptions {
-    let mut options = OpenOptions::new();
-    options.read(true).write(true).create(create);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(
+        &mut options,
+        libc::O_NOFOLLOW | libc::O_NONBLOCK,
+    );
     options
 }
 

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, check_interrupt};
 use crate::interrupt;
 
 /// A run that is over sooner shows no bar.
@@ -180,10 +180,7 @@ impl Progress {
     /// [`Failure::Interrupted`] after Ctrl-C.
     pub fn steps(&self, count: u64) -> Result<(), Failure> {
         self.more(count);
-        if interrupt::requested() {
-            return Err(Failure::Interrupted);
-        }
-        Ok(())
+        check_interrupt()
     }
 
     /// So many are done.

@@ -17,7 +17,7 @@ use crate::continuation::seed;
 use softstop_console::arguments::{CommandArguments, refuse_followers_of_frequency};
 use softstop_console::column::Units;
 use softstop_console::export::Export;
-use softstop_console::failure::Failure;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::interrupt;
 use softstop_console::output::{self, folder_and_file};
 use softstop_console::record::Record;
@@ -150,9 +150,7 @@ fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<SpecialP
     let follower = Continuation::new(&family, orbit.periods);
     let branch = follower.branch(own, orbit.state(), &limits, |_| interrupt::go_on());
     let branch = branch.map_err(|error| anyhow!(error).context("no branch to follow"))?;
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
+    check_interrupt()?;
     let away = |it: &SpecialPoint| (it.point.parameter - own).abs();
     let specials = branch.specials.into_iter();
     let specials = specials.filter(|it| wanted.is(it.kind));

@@ -36,11 +36,8 @@ impl<U: Unit> Instance<U> {
                 return Err(fault("derivatives can be set of continuous inputs only"));
             };
             if !value.is_finite() {
-                return Err(Fault::OutOfRange {
-                    name: variable.name,
-                    value,
-                    allowed: format!("finite (derivative of order {order})"),
-                });
+                let range = format!("finite (derivative of order {order})");
+                return Err(Fault::argument(variable.name, value, &range));
             }
             match usize::try_from(order) {
                 Ok(order @ 1..=HIGHEST_ORDER) => signals[number][order] = value,
@@ -65,10 +62,7 @@ impl<U: Unit> Instance<U> {
         values: &mut [f64],
     ) -> Result<(), Fault> {
         if matches!(self.lifecycle, Lifecycle::Initializing | Lifecycle::Event) {
-            return Err(Fault::WrongState {
-                state: self.lifecycle,
-                remedy: "derivatives of outputs can be read after initialisation",
-            });
+            return Err(self.not_allowed("derivatives of outputs can be read after initialisation"));
         }
         self.ready_for_outputs()?;
         for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {

@@ -36,10 +36,9 @@ impl<U: Unit> Instance<U> {
         report: &mut StepReport,
     ) -> Result<Ending, Fault> {
         if self.awaits && handling.in_event_mode {
-            return Err(Fault::WrongState {
-                state: self.lifecycle,
-                remedy: "an event is due: fmi3EnterEventMode and fmi3UpdateDiscreteStates must come first",
-            });
+            return Err(self.not_allowed(
+                "an event is due: fmi3EnterEventMode and fmi3UpdateDiscreteStates must come first",
+            ));
         }
         self.pass_event(report)?;
         let (begin, end) = (self.time(), self.intended_end(point + step, step));
@@ -129,10 +128,7 @@ impl<U: Unit> Instance<U> {
     pub(crate) fn leave_event_mode(&mut self) -> Result<(), Fault> {
         self.require(&[Lifecycle::Event], "it is left from event mode")?;
         if self.awaits {
-            return Err(Fault::WrongState {
-                state: self.lifecycle,
-                remedy: "an event is due: its handling must come first",
-            });
+            return Err(self.not_allowed("an event is due: its handling must come first"));
         }
         self.settle().map(drop)
     }

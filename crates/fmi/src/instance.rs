@@ -170,10 +170,7 @@ impl<U: Unit> Instance<U> {
             "it is entered once, after fmi2SetupExperiment",
         )?;
         if self.experiment.is_none() {
-            return Err(Fault::WrongState {
-                state: self.lifecycle,
-                remedy: "fmi2SetupExperiment must come first",
-            });
+            return Err(self.not_allowed("fmi2SetupExperiment must come first"));
         }
         self.lifecycle = Lifecycle::Initializing;
         Ok(())
@@ -210,14 +207,19 @@ impl<U: Unit> Instance<U> {
         Ok(())
     }
 
+    /// The fault of a call that the present state does not allow.
+    pub(crate) fn not_allowed(&self, remedy: &'static str) -> Fault {
+        Fault::WrongState {
+            state: self.lifecycle,
+            remedy,
+        }
+    }
+
     pub(crate) fn require(&self, states: &[Lifecycle], remedy: &'static str) -> Result<(), Fault> {
         if states.contains(&self.lifecycle) {
             Ok(())
         } else {
-            Err(Fault::WrongState {
-                state: self.lifecycle,
-                remedy,
-            })
+            Err(self.not_allowed(remedy))
         }
     }
 

@@ -71,27 +71,17 @@ pub(crate) const LOG_ALL: &str = "logAll";
 
 /// The importer's wishes. Errors are always logged: a refused call must not pass in silence.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Wanted {
-    events: bool,
-    warnings: bool,
-}
+pub(crate) struct Wanted([bool; Category::ALL.len()]);
 
 impl Wanted {
     /// All or nothing, as `loggingOn` at instantiation.
     pub(crate) const fn all(on: bool) -> Self {
-        Self {
-            events: on,
-            warnings: on,
-        }
+        Self([on; Category::ALL.len()])
     }
 
     /// Whether lines of this category are wanted.
     pub(crate) const fn has(self, category: Category) -> bool {
-        match category {
-            Category::Events => self.events,
-            Category::Warnings => self.warnings,
-            Category::Errors => true,
-        }
+        matches!(category, Category::Errors) || self.0[category as usize]
     }
 
     /// Switches the named categories, or all if none is named.
@@ -102,11 +92,7 @@ impl Wanted {
             *self = Self::all(on);
         }
         for category in categories {
-            match category {
-                Category::Events => self.events = on,
-                Category::Warnings => self.warnings = on,
-                Category::Errors => {}
-            }
+            self.0[category as usize] = on;
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use crate::lifecycle::Lifecycle;
 use crate::standard::Standard;
 use crate::table::TIME_REFERENCE;
 use crate::unit::{Row, Unit};
-use crate::variable::{Access, Kind};
+use crate::variable::Access;
 use crate::{rows, si};
 
 /// A type of values, for which a standard has functions of its own.
@@ -15,37 +15,15 @@ pub(crate) struct Type {
     pub standard: Standard,
     /// Its name in those of the functions.
     pub name: &'static str,
-    /// Whether a variable of a kind is of this type.
-    pub includes: fn(&Kind) -> bool,
 }
 
 impl Type {
     /// Real numbers of FMI 2.0.
-    pub(crate) const REAL: Self = Self {
-        standard: Standard::Fmi2,
-        name: "Real",
-        includes: |it| matches!(it, Kind::Real(_)),
-    };
-    /// Integers and enumerations of FMI 2.0.
-    pub(crate) const INTEGER: Self = Self {
-        standard: Standard::Fmi2,
-        name: "Integer",
-        includes: |it| matches!(it, Kind::Count { .. } | Kind::Enumeration(_)),
-    };
-    /// Booleans of FMI 2.0.
-    pub(crate) const BOOLEAN: Self = Self {
-        standard: Standard::Fmi2,
-        name: "Boolean",
-        includes: |it| matches!(it, Kind::Boolean),
-    };
+    pub(crate) const REAL: Self = Self::of(Standard::Fmi2, "Real");
 
-    /// One of which there are no variables.
-    pub(crate) const fn none(standard: Standard, name: &'static str) -> Self {
-        Self {
-            standard,
-            name,
-            includes: |_| false,
-        }
+    /// The type that functions of a standard name so.
+    pub(crate) const fn of(standard: Standard, name: &'static str) -> Self {
+        Self { standard, name }
     }
 }
 
@@ -55,7 +33,7 @@ pub(crate) fn find<U: Unit>(reference: u32, wanted: Type) -> Result<&'static Row
         _ => U::about().table.by_reference(reference),
     };
     let variable = variable.ok_or(Fault::UnknownReference { reference })?;
-    if (wanted.includes)(&variable.kind) {
+    if variable.kind.value_type(wanted.standard) == wanted.name {
         Ok(variable)
     } else {
         Err(Fault::WrongType {
@@ -117,10 +95,7 @@ impl<U: Unit> Instance<U> {
     }
 
     pub(crate) fn no_outputs(&self) -> Fault {
-        Fault::WrongState {
-            state: self.lifecycle,
-            remedy: "outputs can be read from fmi2EnterInitializationMode on",
-        }
+        self.not_allowed("outputs can be read from fmi2EnterInitializationMode on")
     }
 
     pub(crate) fn ready_for_outputs(&mut self) -> Result<(), Fault> {

@@ -30,11 +30,8 @@ impl<U: Unit> Instance<U> {
             let variable = find::<U>(reference, wanted)?;
             self.check_settable(variable)?;
             if !variable.kind.contains(value) {
-                return Err(Fault::OutOfRange {
-                    name: variable.name,
-                    value,
-                    allowed: variable.kind.range(),
-                });
+                let range = variable.kind.range();
+                return Err(Fault::argument(variable.name, value, &range));
             }
             let held = variable.slot().map(|slot| self.values[slot.0]);
             let is_new = held.is_some_and(|held| held != value);

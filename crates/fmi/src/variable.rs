@@ -49,6 +49,15 @@ impl Kind {
         }
     }
 
+    /// Name of its values' type in those of the functions of a standard that read them.
+    pub(crate) const fn value_type(&self, standard: Standard) -> &'static str {
+        match (self, standard) {
+            (Self::Enumeration(_), Standard::Fmi2) => "Integer",
+            (Self::Enumeration(_), Standard::Fmi3) => "Int64",
+            _ => self.type_name(standard),
+        }
+    }
+
     /// The order of magnitude of its values.
     pub fn nominal(&self) -> f64 {
         match self {

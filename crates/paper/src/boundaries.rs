@@ -16,7 +16,7 @@ use softstop_dynamics::zone::{
 };
 use softstop_dynamics::{BranchLimits, Continuation, Orbit, ParameterFamily, StroboscopicMap};
 
-use softstop_console::failure::Failure;
+use softstop_console::failure::check_interrupt;
 use softstop_console::interrupt;
 
 /// The paper's range of eta, and clearances up to the resonance peak of the free motion, 25.005; at 0 the scale of the
@@ -68,9 +68,7 @@ impl Boundaries {
             grazing: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
             curves,
         };
-        if interrupt::requested() {
-            return Err(Failure::Interrupted.into());
-        }
+        check_interrupt()?;
         Ok(boundaries)
     }
 

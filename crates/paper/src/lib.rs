@@ -31,8 +31,7 @@ use clap::builder::PossibleValuesParser;
 use figure::{Detail, Draw, Drawn, Figure, Findings, Studio};
 use serde::Serialize;
 use softstop_console::export;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Folder, Format};
 use softstop_console::table::heading;
@@ -144,9 +143,7 @@ fn make(
     studio: &Studio,
     folder: &Folder,
 ) -> Result<FigureReport, Failure> {
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
+    check_interrupt()?;
     let begin = Instant::now();
     let (drawn, seconds): (Drawn, f64) = recall_or_compute(studio.kept, &figure.name, || {
         let drawn = draw(studio, figure)?;

@@ -70,18 +70,9 @@ pub struct Certificate {
     pub stability: &'static str,
 }
 
-struct System<'a> {
-    motion: &'a Motion,
-    problem: Problem,
-}
-
-impl Equations for System<'_> {
-    fn values(&self, unknowns: &[Interval]) -> Vec<Interval> {
-        self.motion.residuals(self.problem, unknowns)
-    }
-
-    fn gradients(&self, unknowns: &[Gradient]) -> Vec<Gradient> {
-        self.motion.residuals(self.problem, unknowns)
+impl Equations for (&Motion, Problem) {
+    fn residuals<T: Number>(&self, unknowns: &[T]) -> Vec<T> {
+        self.0.residuals(self.1, unknowns)
     }
 }
 
@@ -112,10 +103,7 @@ impl Certificate {
             Claim::Fold => with_tangent(|pinned| Problem::Fold { pinned })?,
             Claim::Flip => with_tangent(|pinned| Problem::Flip { pinned })?,
         };
-        let system = System {
-            motion: &motion,
-            problem,
-        };
+        let system = (&motion, problem);
         let near = approximate(&system, &guess).ok_or(ProofError::NoConvergence)?;
         let zero = prove(&system, &near).ok_or(ProofError::NoBox)?;
         let own = motion.unknowns();

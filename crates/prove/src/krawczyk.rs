@@ -9,14 +9,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::interval::Interval;
-use crate::number::Gradient;
+use crate::number::{Gradient, Number};
 
 /// Equations with as many unknowns.
 pub trait Equations {
-    /// What is left of them at intervals of the unknowns.
-    fn values(&self, unknowns: &[Interval]) -> Vec<Interval>;
-    /// What is left of them, with its derivatives by the unknowns.
-    fn gradients(&self, unknowns: &[Gradient]) -> Vec<Gradient>;
+    /// What is left of them at some unknowns, of intervals or with derivatives.
+    fn residuals<T: Number>(&self, unknowns: &[T]) -> Vec<T>;
 }
 
 /// A box proven to hold one zero, and a tight one around that.
@@ -49,7 +47,7 @@ fn jacobian(equations: &impl Equations, unknowns: &[Interval]) -> Vec<Gradient> 
     let unknowns: Vec<_> = numbered
         .map(|(index, it)| Gradient::unknown(*it, index, count))
         .collect();
-    equations.gradients(&unknowns)
+    equations.residuals(&unknowns)
 }
 
 fn middles(rows: &[Gradient]) -> DMatrix<f64> {
@@ -72,7 +70,7 @@ impl<'a, E: Equations> Test<'a, E> {
         let center = points(center);
         let inverse = middles(&jacobian(equations, &center)).try_inverse()?;
         let inverse = inverse.map(Interval::point);
-        let values = equations.values(&center);
+        let values = equations.residuals(&center);
         let step = inverse
             .row_iter()
             .map(|row| sum(row.iter().copied().zip(values.iter().copied())));

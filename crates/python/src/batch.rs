@@ -108,20 +108,17 @@ pub fn follow<'py>(
         offsets[row + 1] += offsets[row];
     }
     let column = |value: fn(&Start) -> f64| {
-        let values: Vec<f64> = outcomes.iter().map(|it| value(&it.end)).collect();
-        values.into_pyarray(py).unbind()
+        PyArray1::from_iter(py, outcomes.iter().map(|it| value(&it.end))).unbind()
     };
-    let counts: Vec<u64> = outcomes.iter().map(|it| it.impacts).collect();
-    let velocities: Vec<f64> = kept.iter().map(|it| it.2).collect();
     let errors = outcomes.iter().enumerate();
     let errors = errors.filter_map(|(row, it)| Some((row, it.error.as_ref()?.to_string())));
     Ok(Batch {
         position: column(|it| it.position),
         velocity: column(|it| it.velocity),
-        counts: counts.into_pyarray(py).unbind(),
+        counts: PyArray1::from_iter(py, outcomes.iter().map(|it| it.impacts)).unbind(),
         offsets: offsets.into_pyarray(py).unbind(),
         times: times.into_pyarray(py).unbind(),
-        velocities: velocities.into_pyarray(py).unbind(),
+        velocities: PyArray1::from_iter(py, kept.iter().map(|it| it.2)).unbind(),
         errors: errors.collect(),
     })
 }

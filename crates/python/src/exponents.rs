@@ -1,10 +1,9 @@
 //! Lyapunov exponents of many motions.
 
-use numpy::IntoPyArray;
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::progress::Progress;
 use softstop_dynamics::LyapunovExponents;
 
@@ -40,11 +39,8 @@ pub fn exponents<'py>(
                 return Err(Failure::Run(error.clone().into()));
             }
             let (scene, state) = (rows.scene(row), settled[row].end.into());
-            let ask = || match interrupt::requested() {
-                true => Err(Failure::Interrupted),
-                false => Ok(()),
-            };
-            let found = LyapunovExponents::along_motion_with_monitor(&scene, state, batch, ask);
+            let found =
+                LyapunovExponents::along_motion_with_monitor(&scene, state, batch, check_interrupt);
             progress.more(1);
             Ok(found?.0)
         };
@@ -54,8 +50,7 @@ pub fn exponents<'py>(
     })??;
     let column = |value: &dyn Fn(&LyapunovExponents) -> f64| {
         let value = |it: &Result<_, _>| it.as_ref().map_or(f64::NAN, value);
-        let values: Vec<f64> = found.iter().map(value).collect();
-        values.into_pyarray(py).unbind()
+        PyArray1::from_iter(py, found.iter().map(value)).unbind()
     };
     let errors = found.iter().enumerate();
     let errors = errors.filter_map(|(row, it)| match it.as_ref().err()? {

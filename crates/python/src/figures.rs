@@ -26,12 +26,11 @@ pub fn figures(
     by: Vec<String>,
 ) -> PyResult<(Vec<f64>, Vec<Vec<f64>>)> {
     let stated = &machine.stated;
+    let is_offered = |it: &Figure| it.is_of_motion() && *it != Figure::Cost;
     let named = |name: &String| {
-        let figure = Figure::named(name).filter(|it| it.is_of_motion() && *it != Figure::Cost);
+        let figure = Figure::named(name).filter(is_offered);
         figure.ok_or_else(|| {
-            let all = Figure::ALL
-                .iter()
-                .filter(|it| it.is_of_motion() && **it != Figure::Cost);
+            let all = Figure::ALL.iter().filter(|it| is_offered(it));
             let all: Vec<&str> = all.map(|it| it.name()).collect();
             MachineError::new_err(format!(
                 "{name}: no such figure; there are {}",
@@ -53,13 +52,10 @@ pub fn figures(
         })
     })?;
     let (orbit, stroke) = found.map_err(of_failure)?;
-    let own = |figure: Figure| Own {
-        machine: stated,
-        figure,
-    };
+    let to_own = |figure: &Figure, value: f64| stated.to_own(figure.dimension(), value);
     let values = figures.iter().map(|figure| {
         let value = figure.of_motion(&orbit, &stroke).unwrap_or(f64::NAN);
-        own(*figure).to_own(value)
+        to_own(figure, value)
     });
     let values = values.collect();
     if directions.is_empty() {
@@ -68,23 +64,10 @@ pub fn figures(
     let rates = derivatives(&figures, (&orbit, &stroke), &directions)?;
     let rows = figures.iter().zip(rates);
     let rows = rows.map(|(figure, row)| {
-        row.into_iter()
-            .map(|rate| own(*figure).to_own(rate))
-            .collect()
+        let rates = row.into_iter();
+        rates.map(|rate| to_own(figure, rate)).collect()
     });
     Ok((values, rows.collect()))
-}
-
-/// A figure in a machine's own units.
-struct Own<'a> {
-    machine: &'a Stated,
-    figure: Figure,
-}
-
-impl Own<'_> {
-    fn to_own(&self, value: f64) -> f64 {
-        self.machine.to_own(self.figure.dimension(), value)
-    }
 }
 
 /// What changes of all parameters, in SI units, as a key of the machine goes on by one of its own units.

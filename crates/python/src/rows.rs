@@ -6,8 +6,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use softstop::{CheckedScene, Machine as Stated, MotionError, Parameter, Scene, Start};
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::check_interrupt;
 use softstop_console::progress::Progress;
 use softstop_lanes::{BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run_parallel};
 
@@ -121,7 +120,7 @@ impl<'a> Rows<'a> {
             let done = run_parallel(InstructionLimit::Widest, &machines, &jobs, watch);
             outcomes.extend(done.0);
             watches.extend(done.1);
-            go_on()?;
+            check_interrupt().map_err(of_failure)?;
         }
         Ok((outcomes, watches))
     }
@@ -141,15 +140,8 @@ impl<'a> Rows<'a> {
     }
 
     fn checked(&self, row: usize) -> PyResult<CheckedScene> {
-        go_on()?;
+        check_interrupt().map_err(of_failure)?;
         let checked = self.machine(row).check(None);
         checked.map_err(|error| of_scene(&error))
-    }
-}
-
-fn go_on() -> PyResult<()> {
-    match interrupt::requested() {
-        true => Err(of_failure(Failure::Interrupted)),
-        false => Ok(()),
     }
 }

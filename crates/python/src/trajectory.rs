@@ -2,9 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use softstop::{AppliedForce, Clock, CrossingKind, Observer, Start, Trajectory as Motion};
+use softstop::{
+    AppliedForce, Clock, CrossingKind, ImpactEvent, Observer, Start, Trajectory as Motion,
+};
 use softstop_console::budget::Budget;
 use softstop_console::interrupt;
 
@@ -84,28 +86,20 @@ impl Trajectory {
             states.append(&mut part?);
             py.check_signals()?;
         }
-        let column = |value: fn(&Start) -> f64| states.iter().map(value).collect::<Vec<f64>>();
-        Ok((
-            column(|it| it.position).into_pyarray(py).unbind(),
-            column(|it| it.velocity).into_pyarray(py).unbind(),
-        ))
+        let column =
+            |value: fn(&Start) -> f64| PyArray1::from_iter(py, states.iter().map(value)).unbind();
+        Ok((column(|it| it.position), column(|it| it.velocity)))
     }
 
     /// Times in s and before-impact velocities in m/s of all impacts.
     fn impacts(&self, py: Python<'_>) -> (Array, Array) {
         let clock = &self.motion.clock;
-        let all = || self.motion.impacts();
+        let column = |value: &dyn Fn(ImpactEvent) -> f64| {
+            PyArray1::from_iter(py, self.motion.impacts().map(value)).unbind()
+        };
         (
-            all()
-                .map(|it| clock.time(it.instant))
-                .collect::<Vec<f64>>()
-                .into_pyarray(py)
-                .unbind(),
-            all()
-                .map(|it| it.before_impact_velocity)
-                .collect::<Vec<f64>>()
-                .into_pyarray(py)
-                .unbind(),
+            column(&|it| clock.time(it.instant)),
+            column(&|it| it.before_impact_velocity),
         )
     }
 
@@ -114,11 +108,7 @@ impl Trajectory {
         let clock = &self.motion.clock;
         let all = || self.motion.crossings();
         let column = |value: &dyn Fn(&softstop::Crossing) -> f64| {
-            all()
-                .map(value)
-                .collect::<Vec<f64>>()
-                .into_pyarray(py)
-                .unbind()
+            PyArray1::from_iter(py, all().map(value)).unbind()
         };
         (
             column(&|it| clock.time(it.instant)),

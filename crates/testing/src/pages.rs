@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
+use crate::program::files;
+
 /// A page in Markdown.
 #[derive(Clone, Debug)]
 pub struct Page {
@@ -36,31 +38,14 @@ pub fn top() -> PathBuf {
 /// # Panics
 /// If one cannot be read.
 pub fn all() -> Vec<Page> {
-    let mut places = Vec::new();
-    gather(&top(), Path::new(""), &mut places);
-    gather_below(&top(), Path::new("docs"), &mut places);
+    let at_top = fs::read_dir(top()).expect("the top folder");
+    let at_top = at_top.map(|entry| entry.expect("an entry").path());
+    let all = at_top.chain(files(&top().join("docs")));
+    let is_page = |path: &PathBuf| path.extension().is_some_and(|it| it == "md");
+    let place = |path: PathBuf| path.strip_prefix(top()).expect("below the top").to_owned();
+    let mut places: Vec<PathBuf> = all.filter(is_page).map(place).collect();
     places.sort();
     places.into_iter().map(Page::read).collect()
-}
-
-fn gather_below(top: &Path, folder: &Path, places: &mut Vec<PathBuf>) {
-    gather(top, folder, places);
-    for entry in fs::read_dir(top.join(folder)).expect("a folder of docs") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            let name = path.file_name().expect("a name");
-            gather_below(top, &folder.join(name), places);
-        }
-    }
-}
-
-fn gather(top: &Path, folder: &Path, places: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(top.join(folder)).expect("a folder of pages") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|it| it == "md") {
-            places.push(folder.join(path.file_name().expect("a name")));
-        }
-    }
 }
 
 impl Page {

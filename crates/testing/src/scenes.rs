@@ -86,47 +86,10 @@ pub const fn units(mass: f64, stiffness: f64, force: f64) -> Units {
     }
 }
 
-fn slopes(value: &Value, key: &str) -> Vec<Slope> {
-    list(value, key)
-        .iter()
-        .map(|slope| Slope {
-            from: slope[0].as_f64().expect("a deflection"),
-            stiffness: slope[1].as_f64().expect("a stiffness"),
-        })
-        .collect()
-}
-
-fn stop(value: &Value) -> Stop {
-    let stiffness = || number(value, "stiffness");
-    match value["model"].as_str().expect("a model") {
-        "kelvinVoigt" => Stop::KelvinVoigt {
-            stiffness: stiffness(),
-            release: match value["release"].as_str() {
-                Some("zeroForce") => Release::ZeroForce,
-                _ => Release::Clearance,
-            },
-        },
-        "preloaded" => preloaded(stiffness(), number(value, "preload")),
-        "piecewiseLinear" => Stop::PiecewiseLinear {
-            loading: slopes(value, "loading"),
-            unloading: slopes(value, "unloading"),
-        },
-        "hertz" => hertz(
-            stiffness(),
-            number(value, "exponent"),
-            number(value, "dissipation"),
-        ),
-        "rigid" => Stop::Rigid {
-            restitution: number(value, "restitution"),
-        },
-        "none" => Stop::None,
-        other => panic!("unknown model {other}"),
-    }
-}
-
 /// The scene of a case.
 pub fn scene(value: &Value) -> Scene {
-    let given = |key: &str| (!value[key].is_null()).then(|| &value[key]);
+    let part = |key: &str| value[key].clone();
+    let stop: Stop = serde_json::from_value(part("stop")).expect("a stop");
     Scene {
         damping: number(value, "damping"),
         excitation: Excitation {
@@ -136,17 +99,9 @@ pub fn scene(value: &Value) -> Scene {
         },
         clearance: number(value, "clearance"),
         contact_damping: number(value, "contact_damping"),
-        piercing: given("strip").map(|strip| Strip {
-            stiffness: number(strip, "stiffness"),
-            friction: number(strip, "friction"),
-            thickness: number(strip, "thickness"),
-            travel: number(strip, "travel"),
-        }),
-        rigid: given("rigid").map(|rigid| RigidStop {
-            travel: number(rigid, "travel"),
-            restitution: number(rigid, "restitution"),
-        }),
-        ..Scene::of_stop(stop(&value["stop"]))
+        piercing: serde_json::from_value(part("strip")).expect("a strip"),
+        rigid: serde_json::from_value(part("rigid")).expect("a rigid stop"),
+        ..Scene::of_stop(stop)
     }
 }
 

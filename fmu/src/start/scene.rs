@@ -44,18 +44,9 @@ pub enum NotServed {
     Start(#[from] MotionError),
 }
 
-/// The slots of a list of slopes.
-#[derive(Clone, Copy)]
-struct SlopeSlots {
-    /// The list's name in a machine file.
-    list: &'static str,
-    /// How many slopes it has.
-    count: Slot,
-    /// Where the first one begins; those of the others follow.
-    from: Slot,
-    /// The stiffness of the first one; those of the others follow.
-    stiffness: Slot,
-}
+/// A list of slopes: its name in a machine file, and the slot of their number, which their deflections and then their
+/// stiffnesses follow, with room for [`SLOPES`] of each.
+type SlopeSlots = (&'static str, Slot);
 
 /// The slots of what of a stop is no parameter.
 struct Laws {
@@ -68,35 +59,15 @@ struct Laws {
 const ABOVE: Laws = Laws {
     model: slot::STOP_MODEL,
     release: slot::STOP_RELEASE,
-    loading: SlopeSlots {
-        list: "stop.loading",
-        count: slot::LOADING_COUNT,
-        from: slot::LOADING_FROM,
-        stiffness: slot::LOADING_STIFFNESS,
-    },
-    unloading: SlopeSlots {
-        list: "stop.unloading",
-        count: slot::UNLOADING_COUNT,
-        from: slot::UNLOADING_FROM,
-        stiffness: slot::UNLOADING_STIFFNESS,
-    },
+    loading: ("stop.loading", slot::LOADING_COUNT),
+    unloading: ("stop.unloading", slot::UNLOADING_COUNT),
 };
 
 const BELOW: Laws = Laws {
     model: slot::BELOW_MODEL,
     release: slot::BELOW_RELEASE,
-    loading: SlopeSlots {
-        list: "stop.below.loading",
-        count: slot::BELOW_LOADING_COUNT,
-        from: slot::BELOW_LOADING_FROM,
-        stiffness: slot::BELOW_LOADING_STIFFNESS,
-    },
-    unloading: SlopeSlots {
-        list: "stop.below.unloading",
-        count: slot::BELOW_UNLOADING_COUNT,
-        from: slot::BELOW_UNLOADING_FROM,
-        stiffness: slot::BELOW_UNLOADING_STIFFNESS,
-    },
+    loading: ("stop.below.loading", slot::BELOW_LOADING_COUNT),
+    unloading: ("stop.below.unloading", slot::BELOW_UNLOADING_COUNT),
 };
 
 impl StartValues {
@@ -179,16 +150,15 @@ impl StartValues {
         Ok(())
     }
 
-    fn set_slopes(&mut self, slots: SlopeSlots, slopes: &[Slope]) -> Result<(), NotServed> {
+    fn set_slopes(&mut self, (list, place): SlopeSlots, slopes: &[Slope]) -> Result<(), NotServed> {
         let count = slopes.len();
         if count > SLOPES {
-            let list = slots.list;
             return Err(NotServed::TooManySlopes { list, count });
         }
-        self.set(slots.count, count as f64);
+        self.set(place, count as f64);
         for (index, slope) in slopes.iter().enumerate() {
-            self.set(slots.from.element(index), slope.from);
-            self.set(slots.stiffness.element(index), slope.stiffness);
+            self.set(place.element(1 + index), slope.from);
+            self.set(place.element(1 + SLOPES + index), slope.stiffness);
         }
         Ok(())
     }
@@ -247,12 +217,12 @@ impl StartValues {
         }
     }
 
-    fn slopes(&self, slots: SlopeSlots) -> Vec<Slope> {
+    fn slopes(&self, (_, place): SlopeSlots) -> Vec<Slope> {
         let slope = |index| Slope {
-            from: self.get(slots.from.element(index)),
-            stiffness: self.get(slots.stiffness.element(index)),
+            from: self.get(place.element(1 + index)),
+            stiffness: self.get(place.element(1 + SLOPES + index)),
         };
-        let count = self.get(slots.count) as usize;
+        let count = self.get(place) as usize;
         (0..count.min(SLOPES)).map(slope).collect()
     }
 

@@ -1,6 +1,6 @@
 //! The designs of a front, each looked at as the design of the report is.
 
-use softstop_console::failure::Failure;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::parallel;
@@ -63,9 +63,7 @@ pub(super) fn look_at_machines(job: &Job, front: &mut Pareto) -> Result<(), Fail
         let most = verdict.map_or(1.0, |verdict| verdict.share_rejected()[1]);
         is_kept.push(index == 0 || !problem.has_normal_tolerances() || most <= problem.violating);
     }
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
+    check_interrupt()?;
     front.machines = Some(machines);
     front.keep(&is_kept);
     Ok(())

@@ -1,6 +1,6 @@
 //! What the tolerances do to a design, and what it costs to keep them inside the zone.
 
-use softstop_console::failure::Failure;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::Orbit;
@@ -91,10 +91,7 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<ToleranceStud
     let Some(spread) = spread.filter(|_| job.samples > 0) else {
         return Ok(None);
     };
-    let stopped = |error: OrbitError| match interrupt::requested() {
-        true => Failure::Interrupted,
-        false => Failure::Run(error.into()),
-    };
+    let stopped = |error: OrbitError| Failure::from(anyhow::Error::from(error));
     let (nominal, watcher) = (&design.orbit, &interrupt::watch);
     let progress = Progress::new(job.samples as u64, "machines");
     let settings = VerifySettings::of_machines(job.samples);
@@ -140,10 +137,8 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<ToleranceStud
         },
         tolerances: spread.all().to_vec(),
     };
-    match interrupt::requested() {
-        true => Err(Failure::Interrupted),
-        false => Ok(Some(study)),
-    }
+    check_interrupt()?;
+    Ok(Some(study))
 }
 
 /// The slowest impact in m/s of the machines that keep the motion: by steps down from the nominal one, or seen.

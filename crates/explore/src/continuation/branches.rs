@@ -11,8 +11,7 @@ use softstop_dynamics::continuation::{
 use softstop_dynamics::{Branch, BranchLimits, BranchPoint, Continuation};
 
 use super::{ContinueArguments, FollowedParameter, family, seed};
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::progress::Progress;
 
 /// Largest steps along branches and curves, scaled: fine enough for charts of wide ranges.
@@ -77,9 +76,7 @@ pub(super) fn branches(
         }
     }
     drop(bar);
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
+    check_interrupt()?;
     Ok(branches)
 }
 

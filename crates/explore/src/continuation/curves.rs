@@ -12,8 +12,7 @@ use softstop_dynamics::orbit::OrbitError;
 
 use super::branches::{STEP, count};
 use super::{ContinueArguments, FollowedParameter, family};
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::progress::Progress;
 
 /// The curves of special points of some branches in two parameters.
@@ -99,9 +98,7 @@ pub(super) fn curves<'a>(
         }
     }
     drop(bar);
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
+    check_interrupt()?;
     not_followed.retain(|it: &NotFollowed<'_>| !is_on((it.periods, it.special), &found));
     if found.is_empty() && !not_followed.is_empty() {
         let name = machine.name(both[0].parameter);

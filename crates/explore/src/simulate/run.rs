@@ -11,8 +11,7 @@ use super::tally::MotionTally;
 use crate::simulate::chart::DrawnMotion;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::progress::Progress;
 
 /// What came of it.
@@ -72,9 +71,7 @@ impl RunPlan {
             if part == 0 {
                 progress.at(cycle);
             }
-            if interrupt::requested() {
-                return Err(Failure::Interrupted);
-            }
+            check_interrupt()?;
             let instant = Instant {
                 cycles: cycle as f64,
                 offset: period * (part as f64 / self.samples as f64),

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use softstop::Machine;
 use softstop::internals::budget;
-use softstop_console::failure::Failure;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::interrupt;
 use softstop_dynamics::parallel;
 use softstop_dynamics::zone::hysteresis_batch;
@@ -32,9 +32,7 @@ impl Study {
             Ok::<_, Failure>(told)
         });
         let rows = told?.concat();
-        if interrupt::requested() {
-            return Err(Failure::Interrupted);
-        }
+        check_interrupt()?;
         let width = self.width();
         let column = |column| rows.iter().skip(column).step_by(width);
         Ok((0..width).flat_map(column).copied().collect())
@@ -73,9 +71,7 @@ impl Study {
     ) -> Result<Vec<Option<PointEvaluation<'a>>>, Failure> {
         let (prepared, spent) =
             budget::run_within(self.budget.windows(), || self.prepare_together(machines));
-        if interrupt::requested() {
-            return Err(Failure::Interrupted);
-        }
+        check_interrupt()?;
         if spent < self.budget.windows() {
             return Ok(prepared?.into_iter().map(Some).collect());
         }

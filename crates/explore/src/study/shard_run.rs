@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use anyhow::{Context, Error};
 use rayon::prelude::*;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt::{requested, under_way};
+use softstop_console::failure::{Failure, check_interrupt};
+use softstop_console::interrupt::under_way;
 use softstop_console::keep::KEPT;
 use softstop_console::lock;
 use softstop_console::progress::Progress;
@@ -38,9 +38,7 @@ impl<'a> ShardRun<'a> {
     /// [`Failure::Interrupted`].
     pub fn wait(path: &Path) -> Result<(), Failure> {
         while matches!(RecordLog::open(path), Ok(None)) && path.exists() {
-            if requested() {
-                return Err(Failure::Interrupted);
-            }
+            check_interrupt()?;
             thread::sleep(WAIT);
         }
         Ok(())

@@ -3,11 +3,6 @@
 //! Each turns pointers into slices, calls the safe [`Instance`] and turns a [`Fault`] into `fmi2Error`
 //! and one log line. Enumerations and Booleans of the importer come in as plain integers, since a number
 //! out of their range must not be undefined behaviour.
-#![expect(
-    clippy::missing_safety_doc,
-    non_snake_case,
-    reason = "names and contracts are those of the FMI 2.0 standard"
-)]
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
@@ -72,13 +67,13 @@ functions! { $ export_v2 v2;
     /// Reads integers and enumerations.
     fn fmi2GetInteger<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type::INTEGER, |value| value as i32)
+        component.instance.read(references, values, Type::of(Fmi2, "Integer"), |value| value as i32)
     }
 
     /// Reads Booleans.
     fn fmi2GetBoolean<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type::BOOLEAN, |value| value as i32)
+        component.instance.read(references, values, Type::of(Fmi2, "Boolean"), |value| value as i32)
     }
 
     /// Reads strings, of which there are none.
@@ -86,7 +81,7 @@ functions! { $ export_v2 v2;
         component, references: *const c_uint, count: size_t, values: *mut *const c_char
     ) {
         write("value", values, count)?;
-        component.instance.none_of(Type::none(Fmi2, "String"), read("vr", references, count)?)
+        component.instance.none_of(Type::of(Fmi2, "String"), read("vr", references, count)?)
     }
 
     /// Sets real values.
@@ -98,13 +93,13 @@ functions! { $ export_v2 v2;
     /// Sets integers and enumerations.
     fn fmi2SetInteger<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type::INTEGER, f64::from)
+        component.instance.set(references, values, Type::of(Fmi2, "Integer"), f64::from)
     }
 
     /// Sets Booleans; every number but 0 means true.
     fn fmi2SetBoolean<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type::BOOLEAN, |value| f64::from(u8::from(value != 0)))
+        component.instance.set(references, values, Type::of(Fmi2, "Boolean"), |value| f64::from(u8::from(value != 0)))
     }
 
     /// Sets strings, of which there are none.
@@ -114,7 +109,7 @@ functions! { $ export_v2 v2;
         for &value in read("value", values, count)? {
             string("value", value)?;
         }
-        component.instance.none_of(Type::none(Fmi2, "String"), read("vr", references, count)?)
+        component.instance.none_of(Type::of(Fmi2, "String"), read("vr", references, count)?)
     }
 
     /// Derivatives of outputs along a direction of inputs.

@@ -3,7 +3,9 @@
 //! Here the functions are generic; [`export_fmi2`] makes the C functions of one unit.
 #![allow(
     unsafe_code,
-    reason = "the C interface: pointers of the importer and exported symbols"
+    non_snake_case,
+    clippy::missing_safety_doc,
+    reason = "the C interface: pointers of the importer, exported symbols, and the standard's names and contracts"
 )]
 
 mod functions;

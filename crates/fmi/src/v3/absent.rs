@@ -1,9 +1,4 @@
 //! Functions of the standard for what no unit has: they answer with an error and one log line.
-#![expect(
-    clippy::missing_safety_doc,
-    non_snake_case,
-    reason = "names and contracts are those of the FMI 3.0 standard"
-)]
 
 use libc::{c_int, c_uint, c_void, size_t};
 

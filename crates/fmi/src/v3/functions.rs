@@ -3,12 +3,6 @@
 //! Each turns pointers into slices, calls the safe [`Instance`](crate::instance::Instance) and turns a [`Fault`] into a
 //! status and one log line. Enumerations and Booleans of the importer come in as plain integers, since a number out of
 //! their range must not be undefined behaviour.
-#![expect(
-    clippy::missing_safety_doc,
-    clippy::too_many_arguments,
-    non_snake_case,
-    reason = "names and contracts are those of the FMI 3.0 standard"
-)]
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 

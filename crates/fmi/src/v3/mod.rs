@@ -4,7 +4,10 @@
 //! execution, and of what the units do not have, answer with an error and one log line.
 #![allow(
     unsafe_code,
-    reason = "the C interface: pointers of the importer and exported symbols"
+    non_snake_case,
+    clippy::missing_safety_doc,
+    clippy::too_many_arguments,
+    reason = "the C interface: pointers of the importer, exported symbols, and the standard's names and contracts"
 )]
 
 mod absent;

@@ -1,9 +1,4 @@
 //! Reading and setting variables, for all types of the standard.
-#![expect(
-    clippy::missing_safety_doc,
-    non_snake_case,
-    reason = "names and contracts are those of the FMI 3.0 standard"
-)]
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
@@ -15,7 +10,6 @@ use crate::fault::Fault;
 use crate::reading::{Type, find};
 use crate::standard::Standard::Fmi3;
 use crate::unit::{Clock, Unit};
-use crate::variable::Kind;
 
 /// Refuses another number of values than of scalars.
 pub(super) fn check_count(
@@ -50,7 +44,7 @@ fn find_clock<U: Unit>(
         |clock: &&Clock<U>| component.importer.options.clock && clock.reference == reference;
     match U::about().clock.filter(is_told) {
         Some(clock) => Ok(clock),
-        None => find::<U>(reference, Type::none(Fmi3, "Clock"))
+        None => find::<U>(reference, Type::of(Fmi3, "Clock"))
             .and(Err(Fault::UnknownReference { reference })),
     }
 }
@@ -69,22 +63,16 @@ unsafe fn access_none<U: Unit>(
     // SAFETY: by this function's contract.
     let references = unsafe { read("valueReferences", references, count) }?;
     let instance = &component.instance;
-    instance.none_of(Type::none(Fmi3, type_name), references)
+    instance.none_of(Type::of(Fmi3, type_name), references)
 }
 
-/// The functions of the types of which there are variables, with a constant for the type and how a value and a number become
+/// The functions of the types of which there are variables, with its name and how a value and a number become
 /// each other, and of those of which there are none.
 macro_rules! typed_functions {
     ($dollar:tt
-        some { $($get:ident $set:ident $type:ty, $wanted:ident: $type_name:literal $kind:pat, $typed:expr, $number:expr;)* }
+        some { $($get:ident $set:ident $type:ty: $type_name:literal, $typed:expr, $number:expr;)* }
         none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal $($sizes:ident)?;)* }
     ) => {
-        $(const $wanted: Type = Type {
-            standard: Fmi3,
-            name: $type_name,
-            includes: |it| matches!(it, $kind),
-        };)*
-
         functions! { $dollar export_v3_values v3; ;
             $(
                 /// Reads values of this type.
@@ -96,7 +84,7 @@ macro_rules! typed_functions {
                     let values = write("values", values, value_count)?;
                     let references = expanded(component, references)?;
                     check_count("nValues", value_count, references.len())?;
-                    let read = component.instance.read(&references, values, $wanted, $typed);
+                    let read = component.instance.read(&references, values, Type::of(Fmi3, $type_name), $typed);
                     read.map_err(not_yet)
                 }
 
@@ -109,7 +97,7 @@ macro_rules! typed_functions {
                     let values = read("values", values, value_count)?;
                     let references = expanded(component, references)?;
                     check_count("nValues", value_count, references.len())?;
-                    let set = component.instance.set(&references, values, $wanted, $number);
+                    let set = component.instance.set(&references, values, Type::of(Fmi3, $type_name), $number);
                     set.map_err(Fault::refused)
                 }
             )*
@@ -160,10 +148,10 @@ macro_rules! typed_functions {
 
 typed_functions! { $
     some {
-        fmi3GetFloat64 fmi3SetFloat64 f64, FLOAT_64: "Float64" Kind::Real(_), |value| value, |value| value;
-        fmi3GetInt32 fmi3SetInt32 c_int, INT_32: "Int32" Kind::Count { .. }, |value| value as c_int, f64::from;
-        fmi3GetInt64 fmi3SetInt64 i64, INT_64: "Int64" Kind::Enumeration(_), |value| value as i64, |value| value as f64;
-        fmi3GetBoolean fmi3SetBoolean u8, BOOLEAN: "Boolean" Kind::Boolean, |value| u8::from(value != 0.0),
+        fmi3GetFloat64 fmi3SetFloat64 f64: "Float64", |value| value, |value| value;
+        fmi3GetInt32 fmi3SetInt32 c_int: "Int32", |value| value as c_int, f64::from;
+        fmi3GetInt64 fmi3SetInt64 i64: "Int64", |value| value as i64, |value| value as f64;
+        fmi3GetBoolean fmi3SetBoolean u8: "Boolean", |value| u8::from(value != 0.0),
             |value| f64::from(u8::from(value != 0));
     }
     none {

@@ -9,8 +9,7 @@ use crate::methods::{Integrator, MethodError, Task, Work};
 use super::errors::Scale;
 use super::family::Family;
 use super::truth::Truth;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::median::median;
 
 /// How much is run.
@@ -102,9 +101,7 @@ impl Bench<'_> {
         let mut pace = Pace::default();
         let mut rows = Vec::new();
         for (knob, method) in &family.settings {
-            if interrupt::requested() {
-                return Err(Failure::Interrupted);
-            }
+            check_interrupt()?;
             let row = Row {
                 method: family.name.clone(),
                 knob: *knob,

@@ -4,7 +4,7 @@ use anyhow::Result;
 use rayon::ThreadPool;
 use serde::Serialize;
 use softstop::{Ratios, Scene, SceneError};
-use softstop_console::failure::Failure;
+use softstop_console::failure::{Failure, check_interrupt};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::hysteresis_batch;
 
@@ -66,9 +66,7 @@ pub fn count(scenes: &[Scene], one: &ThreadPool) -> Result<Count> {
     for block in scenes.chunks(BLOCK) {
         let zones = one.install(|| hysteresis_batch(block, &interrupt::watch));
         count.found += zones.iter().filter(|zone| zone.is_ok()).count() as u64;
-        if interrupt::requested() {
-            return Err(Failure::Interrupted.into());
-        }
+        check_interrupt()?;
     }
     Ok(count)
 }

@@ -11,8 +11,7 @@ use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;
 use crate::boundaries::branch;
 use crate::figure::Findings;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::check_interrupt;
 use softstop_console::progress::Progress;
 
 /// Where z = 1 is found: near the resonance.
@@ -76,9 +75,7 @@ fn onset(folds: &[Folds], is_true: impl Fn(&Folds) -> bool) -> Result<Option<f64
     };
     let (mut low, mut high) = (without.stiffness.ln(), with.stiffness.ln());
     for _ in 0..HALVINGS {
-        if interrupt::requested() {
-            return Err(Failure::Interrupted.into());
-        }
+        check_interrupt()?;
         let middle = f64::midpoint(low, high);
         match is_true(&of(middle.exp())?) {
             true => high = middle,

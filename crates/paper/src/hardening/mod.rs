@@ -15,8 +15,7 @@ use chart::chart;
 use folds::Folds;
 use softstop_console::columns;
 use softstop_console::export::csv;
-use softstop_console::failure::Failure;
-use softstop_console::interrupt;
+use softstop_console::failure::check_interrupt;
 use stops::{CLEARANCE, Law, grazing};
 use subharmonics::{Subharmonic, longest};
 use swept::{SweptStop, sweep};
@@ -48,9 +47,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let mut findings = Findings::default();
     folds::onsets(&mut findings, &folds)?;
     // A branch that was cut short would go unnoticed.
-    if interrupt::requested() {
-        return Err(Failure::Interrupted.into());
-    }
+    check_interrupt()?;
     claims_of_stops(&mut findings, &drawn, &folds);
     claims_of_orders(&mut findings, &subharmonics);
     let branches = columns! { Folds, it;
