@@ -2,26 +2,10 @@
 
 use crate::budget;
 
-/// The narrowed bracket of a root, and what it cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RootBracket {
-    /// Ends between which the function changes its sign.
-    pub ends: (f64, f64),
-    /// Evaluations of the function.
-    pub evaluations: usize,
-}
-
-impl RootBracket {
-    /// The middle of the bracket.
-    pub fn middle(&self) -> f64 {
-        0.5 * (self.ends.0 + self.ends.1)
-    }
-}
-
-/// Narrows the interval between `low` and `high`, where the function has the values `at_low` and
-/// `at_high` of opposite signs, to `width`: interpolation, truncation, projection (Oliveira and
-/// Takahashi 2020, ACM Trans. Math. Softw. 47, 5). It never takes more evaluations than bisection and
-/// one, and on a smooth function converges with the order of the secant method.
+/// Narrows the interval between `low` and `high`, places with values of opposite signs, to `width` about a root, and
+/// returns its ends: interpolation, truncation, projection (Oliveira and Takahashi 2020, ACM Trans. Math. Softw. 47, 5).
+/// It never takes more evaluations than bisection and one, and on a smooth function converges with the order of the
+/// secant method.
 ///
 /// # Errors
 /// The function's own.
@@ -30,7 +14,7 @@ pub fn narrow_root<E>(
     high: (f64, f64),
     width: f64,
     mut function: impl FnMut(f64) -> Result<f64, E>,
-) -> Result<RootBracket, E> {
+) -> Result<(f64, f64), E> {
     let ((mut a, mut f_a), (mut b, mut f_b)) = (low, high);
     let half = 0.5 * width;
     // Those of bisection and one: n0 = 1.
@@ -72,10 +56,7 @@ pub fn narrow_root<E>(
             (a, f_a) = (at, value);
         }
     }
-    Ok(RootBracket {
-        ends: (a, b),
-        evaluations,
-    })
+    Ok((a, b))
 }
 
 /// The root of a function (value, derivative) that rises from <= 0 at `low` to > 0 at `high` (place, value): Newton's
@@ -129,20 +110,21 @@ pub(crate) fn bracketed_newton(
 
 #[cfg(test)]
 mod tests {
-    use super::narrow_root;
+    use std::convert::Infallible;
 
-    type Never = std::convert::Infallible;
+    use super::narrow_root;
 
     fn evaluations(width: f64) -> usize {
         let function = |x: f64| x.exp() - 2.0;
-        let bracket = narrow_root::<Never>((0.0, -1.0), (1.0, function(1.0)), width, |x| {
-            Ok(function(x))
-        })
-        .expect("a root");
+        let mut evaluations = 0;
+        let Ok((low, high)) = narrow_root((0.0, -1.0), (1.0, function(1.0)), width, |x| {
+            evaluations += 1;
+            Ok::<_, Infallible>(function(x))
+        });
         let root = 2f64.ln();
-        assert!(bracket.ends.0 <= root + 1e-16 && root - 1e-16 <= bracket.ends.1);
-        assert!(bracket.ends.1 - bracket.ends.0 <= width);
-        bracket.evaluations
+        assert!(low <= root + 1e-16 && root - 1e-16 <= high);
+        assert!(high - low <= width);
+        evaluations
     }
 
     /// Four times the digits cost a few evaluations more: bisection would take 10, 20 and 40.
@@ -156,11 +138,12 @@ mod tests {
     /// A jump is found as by bisection.
     #[test]
     fn a_jump_costs_no_more_than_bisection_and_one() {
-        let bracket = narrow_root::<Never>((0.0, -1.0), (1.0, 1e9), 2f64.powi(-30), |x| {
-            Ok(if x < 0.3 { -1.0 } else { 1e9 })
-        })
-        .expect("a jump");
-        assert!(bracket.evaluations <= 31, "{bracket:?}");
-        assert!((bracket.middle() - 0.3).abs() < 1e-9);
+        let mut evaluations = 0;
+        let Ok((low, high)) = narrow_root((0.0, -1.0), (1.0, 1e9), 2f64.powi(-30), |x| {
+            evaluations += 1;
+            Ok::<_, Infallible>(if x < 0.3 { -1.0 } else { 1e9 })
+        });
+        assert!(evaluations <= 31, "{evaluations}");
+        assert!((low.midpoint(high) - 0.3).abs() < 1e-9);
     }
 }

@@ -154,8 +154,8 @@ impl<'a> ZoneMotion<'a> {
             return low.0 - from;
         };
         let width = 4.0 * f64::EPSILON * from;
-        let found = narrow_root(low, high, width, |at| Ok::<_, Infallible>(above(at)));
-        found.map_or(f64::NAN, |it| it.ends.0 - from)
+        let Ok((last, _)) = narrow_root(low, high, width, |at| Ok::<_, Infallible>(above(at)));
+        last - from
     }
 
     /// Distance along a parameter, in SI units, to where the motion is lost, by this or by anything else; infinite if it

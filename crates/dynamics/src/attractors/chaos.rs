@@ -128,10 +128,10 @@ impl EscapeCounts {
         };
         let at = |rate: f64| excess(rate.exp());
         let [low, high] = [LN_RATE_RANGE.0, LN_RATE_RANGE.1].map(|rate| (rate, at(rate)));
-        let found = narrow_root(low, high, 64.0 * f64::EPSILON, |rate| {
+        let Ok((low, high)) = narrow_root(low, high, 64.0 * f64::EPSILON, |rate| {
             Ok::<f64, Infallible>(at(rate))
         });
-        Some((-found.ok()?.middle()).exp())
+        Some((-low.midpoint(high)).exp())
     }
 }
 

@@ -243,7 +243,8 @@ pub(super) fn contact_force_peaks<'a>(
         let found = narrow_root(ends.0, ends.1, ROUNDING * piece, |time| {
             Ok::<_, ()>(rate(time))
         });
-        let time = found.ok()?.middle();
+        let (low, high) = found.ok()?;
+        let time = low.midpoint(high);
         Some((time, state(time)))
     })
 }

@@ -104,8 +104,9 @@ fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     let mut pairs = seen.windows(2);
     let root = |pair: &[(f64, f64)]| {
         let width = f64::EPSILON * pair[1].0;
-        let Ok(bracket) = narrow_root(pair[0], pair[1], width, |w| Ok::<_, Infallible>(excess(w)));
-        bracket.middle()
+        let Ok((low, high)) =
+            narrow_root(pair[0], pair[1], width, |w| Ok::<_, Infallible>(excess(w)));
+        low.midpoint(high)
     };
     let below = pairs
         .clone()

@@ -141,6 +141,6 @@ pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     // What is no number counts as below zero, at the end as well.
     let value = |x| Ok::<f64, Infallible>(Some(f(x)).filter(|it| !it.is_nan()).unwrap_or(-1.0));
     let ends = ((low, at_low), (high, value(high).ok()?));
-    let found = narrow_root(ends.0, ends.1, width, value).ok()?;
-    Some(found.middle())
+    let (low, high) = narrow_root(ends.0, ends.1, width, value).ok()?;
+    Some(low.midpoint(high))
 }
