@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::phases::{Beyond, Exit, PhaseId, Phases, RestThreshold, SurfaceId};
+use crate::phases::{RestThreshold, SurfaceId};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded stop, and in too many impacts for lanes.
@@ -61,20 +61,5 @@ impl BounceTrain {
             height: faint,
             slowest: faint.sqrt() * self.fastest,
         }
-    }
-}
-
-impl Phases {
-    /// The surface that a guard of a phase watches, if bounces on it may go on for ever.
-    pub(crate) fn endless_surface(&self, phase: PhaseId, guard: usize) -> Option<SurfaceId> {
-        let surface = match self[phase].exits[guard] {
-            Exit::Forward(surface) | Exit::Backward(surface) => surface,
-            Exit::Reversal { .. } | Exit::Switch(_) => return None,
-        };
-        let endless = match self[surface].beyond {
-            Beyond::Phase(_) => true,
-            Beyond::Wall { restitution } => restitution > MAX_RESTITUTION,
-        };
-        endless.then_some(surface)
     }
 }

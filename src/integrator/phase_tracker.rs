@@ -1,6 +1,7 @@
 //! A motion from phase to phase, for methods that find the guards' crossings themselves.
 
-use super::observer::{Crossing, Observer};
+use super::crossing::Crossing;
+use super::observer::Observer;
 use super::{Impact, Motion, Start};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
