@@ -38,4 +38,5 @@ pub use phase_tracker::PhaseTracker;
 pub use simulation::Simulation;
 pub use snapshot::Snapshot;
 pub use start::{InitialConditions, Start};
+pub(crate) use tallies::Counts;
 pub use work::{Work, WorkShares, mechanical_energy, work, work_shares};

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::checked_scene::CheckedScene;
 use crate::integrator::{
-    Arc, Clock, Crossing, CrossingKind, Instant, Observer, Start, Work, mechanical_energy, work,
+    Arc, Clock, Counts, Crossing, CrossingKind, Instant, Observer, Start, Work, mechanical_energy,
 };
 use crate::phases::PhaseId;
 use crate::tangent::Tangent;
@@ -178,14 +178,9 @@ impl Trajectory {
 
     /// Energies supplied and dissipated, in J.
     pub fn work(&self) -> Work {
-        let mass = self.scene.mass;
-        let mut sum = Work::default();
-        for kept in &self.arcs {
-            sum += work(&self.observed_arc(kept), mass, kept.duration);
-            let lost = kept.crossing.map(|it| it.lost_energy(mass));
-            sum.dissipated += lost.unwrap_or_default();
-        }
-        sum
+        let mut counts = Counts::default();
+        self.replay(&mut counts.observer(self.scene.mass));
+        counts.work
     }
 
     /// Mechanical energy at the end less that at the start, in J.

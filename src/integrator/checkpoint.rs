@@ -19,7 +19,7 @@ impl Simulation {
         };
         let mut machine = self.clone();
         machine.checkpoint = Checkpoint::OnArc(origin.motion.now());
-        (machine.motion, machine.tallies.counts) = (origin.motion.clone(), origin.counts);
+        (machine.motion, machine.counts) = (origin.motion.clone(), origin.counts);
         machine.now = origin.now;
         Some(machine)
     }
@@ -52,11 +52,11 @@ impl Simulation {
         let motion = self.motion_at_checkpoint();
         let mut machine = self.clone();
         machine.now = self.time_of(motion.now());
-        machine.tallies.counts.work = Work::default();
+        machine.counts.work = Work::default();
         if let Checkpoint::Before(origin) = &self.checkpoint {
             machine.now = origin.now;
-            let work = machine.tallies.counts.work;
-            machine.tallies.counts = Counts {
+            let work = machine.counts.work;
+            machine.counts = Counts {
                 work,
                 ..origin.counts
             };

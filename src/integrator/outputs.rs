@@ -101,17 +101,17 @@ impl Simulation {
 
     /// Impacts since the start: crossings of a clearance towards its stop.
     pub fn impact_count(&self) -> u64 {
-        self.tallies.counts.impacts
+        self.counts.impacts
     }
 
     /// Impacts on a stop below since the start.
     pub fn impact_count_below(&self) -> u64 {
-        self.tallies.counts.below
+        self.counts.below
     }
 
     /// Strips pierced through since the start.
     pub fn pierce_count(&self) -> u64 {
-        self.tallies.counts.pierced
+        self.counts.pierced
     }
 
     /// The last impact, if there was one.
@@ -120,13 +120,13 @@ impl Simulation {
             time: self.time_of(instant),
             velocity,
         };
-        self.tallies.counts.last_impact.map(impact).or(self.earlier)
+        self.counts.last_impact.map(impact).or(self.earlier)
     }
 
     /// Mechanical energy now; energies supplied and dissipated, impacts on rigid stops among it, since the start, in J.
     pub fn energy(&self) -> Energy {
-        let mut work = self.tallies.counts.work;
-        work += self.tallies.work_under_way(&self.motion);
+        let mut work = self.counts.work;
+        work += self.work_under_way();
         Energy {
             mechanical: self.motion.mechanical_energy(&self.scene),
             supplied: work.supplied,

@@ -63,7 +63,7 @@ impl Simulation {
     /// Puts the mass in another state at another time in s, whatever surface lies between, where it goes on by the law that
     /// holds now. Energies go on from where they are.
     pub fn set_state(&mut self, time: f64, state: impl Into<Start>) {
-        self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
+        self.counts.work += self.work_under_way();
         let motion = &mut self.motion;
         let at = motion.clock.instant(time - self.epoch);
         let elapsed = motion.clock.elapsed(motion.start, at);

@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use super::Observer;
 use super::clock::{Clock, Instant};
 use super::crossing::Impact;
 use super::external_force::force_from_derivatives;
 use super::motion::Motion;
 use super::start::InitialConditions;
-use super::tallies::{Counts, Tallies};
+use super::tallies::Counts;
+use super::{Observer, Work, work};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
@@ -25,7 +25,7 @@ pub struct Simulation {
     /// Absolute time of the clock's time 0.
     pub(super) epoch: f64,
     pub(super) now: f64,
-    pub(super) tallies: Tallies,
+    pub(super) counts: Counts,
     /// Absolute time at which the machine started.
     pub(super) begin: f64,
     pub(super) checkpoint: Checkpoint,
@@ -50,10 +50,6 @@ impl Simulation {
         }
         let clock = scene.clock();
         within_reach(&clock, time, 0.0)?;
-        let tallies = Tallies {
-            mass: scene.mass,
-            counts: Counts::default(),
-        };
         let at = clock.instant(time);
         let through = (scene.phases().clone(), clock);
         let motion = Motion::with_force(through, at, start, Polynomial::default(), fed)?;
@@ -62,7 +58,7 @@ impl Simulation {
             motion,
             epoch: 0.0,
             now: time,
-            tallies,
+            counts: Counts::default(),
             begin: time,
             checkpoint: Checkpoint::OnArc(at),
             earlier: None,
@@ -125,6 +121,11 @@ impl Simulation {
         &self.motion
     }
 
+    /// Work of the arc that is under way since its start, supplied and dissipated.
+    pub(super) fn work_under_way(&self) -> Work {
+        work(&self.motion.arc(), self.scene.mass, self.motion.elapsed())
+    }
+
     /// Sets the external force from now on by its derivatives now: value in N, rate in N/s, and so on
     /// in N/s^k up to [`HIGHEST_ORDER`](crate::flow::HIGHEST_ORDER); those that are not given are zero.
     ///
@@ -134,9 +135,9 @@ impl Simulation {
     pub fn set_force(&mut self, derivatives: &[f64]) -> Result<(), MotionError> {
         let force = force_from_derivatives(derivatives)?;
         if self.motion.force() != force {
-            let work = self.tallies.work_under_way(&self.motion);
+            let work = self.work_under_way();
             if self.motion.set_force(force) {
-                self.tallies.counts.work += work;
+                self.counts.work += work;
             }
             self.checkpoint = Checkpoint::OnArc(self.motion.now());
         }
@@ -168,12 +169,12 @@ impl Simulation {
         (scene.excitation.amplitude, scene.excitation.frequency) = (amplitude, frequency);
         let scene = self.scene.recheck(scene)?;
         let clock = Clock::new(frequency, angle.rem_euclid(TAU));
-        let work = self.tallies.work_under_way(&self.motion);
+        let work = self.work_under_way();
         self.restart_clock();
         let now = Clock::at_cycle(0);
         let through = (scene.phases().clone(), clock);
         if self.motion.set_drive(through, now, force) {
-            self.tallies.counts.work += work;
+            self.counts.work += work;
         }
         self.scene = scene;
         self.checkpoint = Checkpoint::OnArc(self.motion.now());
@@ -210,22 +211,21 @@ impl Simulation {
         let state = self.motion.state();
         let through = (scene.phases().clone(), clock);
         let motion = self.motion.restarted_through(through, at, state)?;
-        self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
+        self.counts.work += self.work_under_way();
         if retimed {
             self.restart_clock();
         }
         (self.motion, self.scene) = (motion, scene);
         self.checkpoint = Checkpoint::OnArc(self.motion.now());
-        self.tallies.mass = self.scene.mass;
         let mechanical = self.motion.mechanical_energy(&self.scene);
-        self.tallies.counts.work.supplied += mechanical - before;
+        self.counts.work.supplied += mechanical - before;
         Ok(())
     }
 
     /// Begins to count the time of a new clock at the present time.
     fn restart_clock(&mut self) {
         self.earlier = self.last_impact();
-        self.tallies.counts.last_impact = None;
+        self.counts.last_impact = None;
         self.epoch = self.now;
     }
 }

@@ -14,7 +14,7 @@ use super::external_force::Force;
 use super::motion::Motion;
 use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;
-use super::tallies::{Counts, Tallies};
+use super::tallies::Counts;
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::NextEvent;
@@ -146,7 +146,7 @@ impl Simulation {
             epoch: self.epoch,
             now: self.now,
             begin: self.begin,
-            counts: self.tallies.counts,
+            counts: self.counts,
             motion: MotionData::from_motion(&self.motion),
             checkpoint,
             earlier: self.earlier,
@@ -167,10 +167,7 @@ impl Simulation {
             motion: snapshot.motion.to_motion(&scene)?,
             epoch: snapshot.epoch,
             now: snapshot.now,
-            tallies: Tallies {
-                mass: scene.mass,
-                counts: snapshot.counts,
-            },
+            counts: snapshot.counts,
             begin: snapshot.begin,
             checkpoint: snapshot.checkpoint.map(|it| it.to_motion(&scene))?,
             earlier: snapshot.earlier,

@@ -106,11 +106,12 @@ impl Simulation {
         }
         let origin = CheckpointState {
             motion: self.motion.clone(),
-            counts: self.tallies.counts,
+            counts: self.counts,
             now: self.now,
         };
         let origin = Box::write(Box::new_uninit(), origin);
-        let mut observers = (&mut self.tallies, observer);
+        let mut tallies = self.counts.observer(self.scene.mass);
+        let mut observers = (&mut tallies, observer);
         match self.motion.watch_before(end, stop, &mut observers) {
             Ok(flow) => {
                 self.checkpoint = Checkpoint::Before(origin);
@@ -125,7 +126,7 @@ impl Simulation {
                 Ok(flow)
             }
             Err(error) => {
-                (self.motion, self.tallies.counts) = (origin.motion, origin.counts);
+                (self.motion, self.counts) = (origin.motion, origin.counts);
                 Err(error)
             }
         }
@@ -144,11 +145,12 @@ impl Simulation {
             };
             self.checkpoint = Checkpoint::Before(Box::new(CheckpointState {
                 motion,
-                counts: self.tallies.counts,
+                counts: self.counts,
                 now: self.time_of(now),
             }));
         }
-        let mut observers = (&mut self.tallies, observer);
+        let mut tallies = self.counts.observer(self.scene.mass);
+        let mut observers = (&mut tallies, observer);
         let now = self.motion.now;
         let near = self.motion.clock.after(now, self.motion.clock.resolution());
         for _ in 0..MAX_CROSSINGS_TOGETHER {

@@ -5,20 +5,18 @@ use serde::{Deserialize, Serialize};
 use super::arc::Arc;
 use super::clock::Instant;
 use super::crossing::Crossing;
-use super::motion::Motion;
 use super::observer::Observer;
 use super::{Work, work};
 
-/// Counts of impacts and pierced strips, and energies, since the start.
-#[derive(Debug, Clone)]
-pub(super) struct Tallies {
-    pub mass: f64,
-    pub counts: Counts,
+/// An observer that counts and adds up.
+pub(crate) struct Tallies<'a> {
+    mass: f64,
+    counts: &'a mut Counts,
 }
 
-/// The part of the tallies that the scene does not decide.
+/// Counts of impacts and pierced strips, and energies, since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Counts {
+pub(crate) struct Counts {
     pub impacts: u64,
     pub pierced: u64,
     /// Of the impacts, those on a stop below.
@@ -29,11 +27,18 @@ pub(super) struct Counts {
     pub work: Work,
 }
 
+impl Counts {
+    /// An observer that counts on, of a machine with mass `mass`.
+    pub fn observer(&mut self, mass: f64) -> Tallies<'_> {
+        Tallies { mass, counts: self }
+    }
+}
+
 fn is_zero(count: &u64) -> bool {
     *count == 0
 }
 
-impl Observer for Tallies {
+impl Observer for Tallies<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.counts.work += work(arc, self.mass, elapsed);
     }
@@ -46,12 +51,5 @@ impl Observer for Tallies {
             self.counts.below += u64::from(crossing.velocity < 0.0);
             self.counts.last_impact = Some((crossing.instant, velocity));
         }
-    }
-}
-
-impl Tallies {
-    /// Work of the arc that is under way since its start, supplied and dissipated.
-    pub fn work_under_way(&self, motion: &Motion) -> Work {
-        work(&motion.arc(), self.mass, motion.elapsed())
     }
 }
