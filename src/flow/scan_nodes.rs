@@ -211,13 +211,13 @@ impl ArcSolution {
     pub(crate) fn expand(&self, node: &ScanNode) -> TaylorPolynomials {
         let forcing =
             linear_forcing_series(&self.flow, node.drive, self.linear_forcing_at(node.elapsed));
-        let taylor = TaylorPolynomials::expand(&self.flow, (node.position, node.velocity), forcing);
-        match self.departure.acceleration {
-            _ if self.is_held() => taylor.held_at(node.position),
-            Some(acceleration) if node.elapsed == 0.0 => {
-                taylor.with_acceleration(&self.flow, acceleration)
-            }
-            _ => taylor,
+        let known = self.departure.acceleration;
+        let acceleration = known.filter(|_| node.elapsed == 0.0);
+        let state = (node.position, node.velocity);
+        let taylor = TaylorPolynomials::expand(&self.flow, state, acceleration, forcing);
+        match self.is_held() {
+            true => taylor.held_at(node.position),
+            false => taylor,
         }
     }
 

@@ -27,38 +27,30 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
 };
 
 impl TaylorPolynomials {
-    /// The Taylor polynomials of a linear law from the state (x, v), with these coefficients of the forcing per mass.
-    pub fn expand(flow: &LinearLaw, (x, v): (f64, f64), forcing: [f64; DEGREE + 1]) -> Self {
-        let mut position = [0.0; DEGREE + 1];
-        position[0] = x;
-        position[1] = v;
-        let mut taylor = Self { position, forcing };
-        taylor.continue_recurrence(flow, 0);
-        taylor
-    }
-
-    /// Computes the Taylor coefficients of the position from order `first` + 2 on.
-    fn continue_recurrence(&mut self, flow: &LinearLaw, first: usize) {
+    /// The Taylor polynomials of a linear law from the state (x, v), with these coefficients of the forcing per mass and,
+    /// where it is known, this initial acceleration.
+    pub fn expand(
+        flow: &LinearLaw,
+        (x, v): (f64, f64),
+        acceleration: Option<f64>,
+        forcing: [f64; DEGREE + 1],
+    ) -> Self {
         let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
-        let position = &mut self.position;
-        for n in first..DEGREE - 1 {
-            let sum = self.forcing[n] - b * position[n];
+        let mut position = [0.0; DEGREE + 1];
+        (position[0], position[1]) = (x, v);
+        position[2] = 0.5 * acceleration.unwrap_or_default();
+        for n in usize::from(acceleration.is_some())..DEGREE - 1 {
+            let sum = forcing[n] - b * position[n];
             let damped = twice_decay * position[n + 1];
             position[n + 2] = (sum * RECIPROCALS[n + 1] - damped) * RECIPROCALS[n + 2];
         }
+        Self { position, forcing }
     }
 
     /// The Taylor polynomials of the same forcing, with the mass held at `position`.
     pub fn held_at(mut self, position: f64) -> Self {
         self.position = [0.0; DEGREE + 1];
         self.position[0] = position;
-        self
-    }
-
-    /// These Taylor polynomials where the initial acceleration is known.
-    pub fn with_acceleration(mut self, flow: &LinearLaw, acceleration: f64) -> Self {
-        self.position[2] = 0.5 * acceleration;
-        self.continue_recurrence(flow, 1);
         self
     }
 

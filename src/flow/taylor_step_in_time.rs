@@ -48,11 +48,8 @@ impl TaylorStep {
         from: &Departure,
         start: (f64, f64),
     ) -> Self {
-        let taylor = TaylorPolynomials::expand(flow, start, forcing_series(flow, from));
-        let taylor = match from.acceleration {
-            Some(acceleration) => taylor.with_acceleration(flow, acceleration),
-            None => taylor,
-        };
+        let forcing = forcing_series(flow, from);
+        let taylor = TaylorPolynomials::expand(flow, start, from.acceleration, forcing);
         let mut step = Self::without_motion(flow, hertz);
         step.depth = taylor.position;
         step.forcing = taylor.forcing;
