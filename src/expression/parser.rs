@@ -72,10 +72,6 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn push_step(&mut self, step: Instruction) {
-        self.steps.push(step);
-    }
-
     fn parse_sum(&mut self) -> Result<(), String> {
         self.depth += 1;
         if self.depth > MAX_BRACKET_DEPTH {
@@ -83,30 +79,30 @@ impl<'a> Parser<'a> {
                 "has more than {MAX_BRACKET_DEPTH} brackets within each other"
             ));
         }
-        self.parse_product()?;
-        while let Some(sign) = self.take_sign(&['+', '-']) {
-            self.parse_product()?;
-            let is_sum = sign == '+';
-            self.push_step(Instruction::Binary(if is_sum {
-                Binary::Plus
-            } else {
-                Binary::Minus
-            }));
-        }
+        let signs = [('+', Binary::Plus), ('-', Binary::Minus)];
+        self.parse_operands(Self::parse_product, signs)?;
         self.depth -= 1;
         Ok(())
     }
 
     fn parse_product(&mut self) -> Result<(), String> {
-        self.parse_signed()?;
-        while let Some(sign) = self.take_sign(&['*', '/']) {
-            self.parse_signed()?;
-            let is_product = sign == '*';
-            self.push_step(Instruction::Binary(if is_product {
-                Binary::Times
-            } else {
-                Binary::Over
-            }));
+        let signs = [('*', Binary::Times), ('/', Binary::Over)];
+        self.parse_operands(Self::parse_signed, signs)
+    }
+
+    /// Takes operands of the expression, each by `parse`, and the operators between them, which bind from left to right.
+    fn parse_operands(
+        &mut self,
+        parse: fn(&mut Self) -> Result<(), String>,
+        operators: [(char, Binary); 2],
+    ) -> Result<(), String> {
+        parse(self)?;
+        while let Some((_, operator)) = operators
+            .iter()
+            .find(|(sign, _)| self.take_sign(&[*sign]).is_some())
+        {
+            parse(self)?;
+            self.steps.push(Instruction::Binary(*operator));
         }
         Ok(())
     }
@@ -119,10 +115,10 @@ impl<'a> Parser<'a> {
         self.parse_atom()?;
         if self.take_sign(&['^']).is_some() {
             self.parse_signed()?;
-            self.push_step(Instruction::Binary(Binary::Power));
+            self.steps.push(Instruction::Binary(Binary::Power));
         }
         if is_negative {
-            self.push_step(Instruction::Unary(Unary::Minus));
+            self.steps.push(Instruction::Unary(Unary::Minus));
         }
         Ok(())
     }
@@ -133,7 +129,7 @@ impl<'a> Parser<'a> {
             return self.take_closing();
         }
         if let Some(number) = self.parse_number()? {
-            self.push_step(Instruction::Number(number));
+            self.steps.push(Instruction::Number(number));
             return Ok(());
         }
         let is_of_name = |it: char| it.is_alphanumeric() || it == '_' || it == '.';
@@ -159,7 +155,7 @@ impl<'a> Parser<'a> {
             names.push(name.to_owned());
             names.len() - 1
         });
-        self.push_step(Instruction::Name(index));
+        self.steps.push(Instruction::Name(index));
     }
 
     fn parse_call(&mut self, name: &str) -> Result<(), String> {
@@ -176,7 +172,7 @@ impl<'a> Parser<'a> {
             }
             self.parse_sum()?;
         }
-        self.push_step(*step);
+        self.steps.push(*step);
         self.take_closing()
     }
 
