@@ -11,7 +11,7 @@ use crate::interval::Interval;
 use crate::krawczyk::{Equations, approximate, prove};
 use crate::machine::Machine;
 use crate::motion::{Event, Motion, Problem};
-use crate::number::Gradient;
+use crate::number::Number;
 
 /// What is to be proven of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use softstop::{
     Units,
 };
 
-use crate::reference::{list, number};
+use crate::reference::number;
 
 /// The paper's unloaded machine at a frequency.
 ///
