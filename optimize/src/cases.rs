@@ -29,14 +29,6 @@ impl<'a> CaseRow<'a> {
     fn verdict(&self) -> Option<&'a CaseVerdict> {
         Some(self.study?.verdict.for_case(self.point.case))
     }
-
-    /// The least velocity of its machines.
-    fn slowest(&self) -> Option<f64> {
-        match self.point.case {
-            None => self.study.map(|it| it.slowest),
-            Some(_) => self.verdict().map(|it| it.slowest),
-        }
-    }
 }
 
 fn columns<'a>() -> [Column<CaseRow<'a>>; 15] {
@@ -54,7 +46,7 @@ fn columns<'a>() -> [Column<CaseRow<'a>>; 15] {
         "zone_to" [Frequency] Six, "upper end of its zone" => it.point.design.own_frequency(it.point.design.zone.high.frequency);
         "zone_to_by" [None], "what ends it there" => end_name(&it.point.design.zone.high);
         "lost" [None] Plain, "machines within the tolerances that lose the motion" => it.verdict().map(|it| it.lost);
-        "worst" [Velocity] Six, "least velocity of the others" => it.slowest();
+        "worst" [Velocity] Six, "least velocity of the others" => it.study.map(|study| study.slowest(it.point.case));
         "factor" [None] Six, "factor by which all tolerances may grow" => it.study.and_then(|study| study.factor(it.point.case));
     }
 }

@@ -38,7 +38,7 @@ fn machines<'a>() -> [Column<(&'a ToleranceStudy, &'a Design)>; 6] {
         "looked_at" [None] Plain, "machines looked at" => study.verdict.machines;
         "lost" [None] Plain, "machines that lose the motion" => study.verdict.drawing.lost;
         "nominal" [Velocity] Six, "before-impact velocity of the design" => design.before_impact_velocity();
-        "worst" [Velocity] Six, "least within the tolerances" => study.slowest;
+        "worst" [Velocity] Six, "least within the tolerances" => study.slowest(None);
         "factor" [None] Six, "factor by which all tolerances may grow" => study.factor(None);
         "normal_distance" [None] Six, "normal distance in units of the tolerances" => study.normal_distance;
     }
@@ -169,7 +169,7 @@ fn price(
         "{sought}Without tolerances {} {unit} nominal, {worst}; robust design {} nominal, {} worst",
         own(without.design.before_impact_velocity()),
         own(design.before_impact_velocity()),
-        own(study.slowest),
+        own(study.slowest(None)),
     );
     told.replace("  ", " ") + "."
 }

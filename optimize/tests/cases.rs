@@ -246,7 +246,7 @@ fn trials_are_made_in_every_case() -> Outcome {
 #[test]
 fn reports_tell_every_case() -> Outcome {
     let task = "machine = \"unloaded\"\n[vary]\nstop.stiffness = 7\nclearance = [2, 22]\n[tolerance]\nclearance = 0.02\n\
-                [require]\nstop_force = 150\n[[case]]\nname = \"more <damping>\"\nweight = 0.5\ndamping = 0.06\n\
+                [require]\nstop_force = 150\n[objective]\nof = \"worst\"\n[[case]]\nname = \"more <damping>\"\nweight = 0.5\ndamping = 0.06\n\
                 [[case]]\nweight = 0\nstop.preload = 80\n";
     let file = tempfile::NamedTempFile::with_suffix(".toml")?;
     std::fs::write(&file, task)?;
@@ -255,7 +255,7 @@ fn reports_tell_every_case() -> Outcome {
         file.path().display()
     ))?;
     for told in [
-        "Hardest impact, weighted mean of 2 operating points",
+        "Highest before-impact velocity of the worst machine, weighted mean of 2 operating points",
         "In each case",
         "more <damping>",
         "in any case           0",
@@ -266,6 +266,10 @@ fn reports_tell_every_case() -> Outcome {
     let names: Vec<&str> = cases.iter().filter_map(|it| it["case"].as_str()).collect();
     assert_eq!(names, ["drawing", "more <damping>", "2"]);
     let [drawing, damped] = [0, 1].map(|index: usize| number(&cases[index], "value"));
+    for it in &cases[..2] {
+        let [worst, value] = ["worst", "value"].map(|key| number(it, key));
+        assert_relative_eq!(worst, value, max_relative = 1e-9);
+    }
     let mean = (drawing + 0.5 * damped) / 1.5;
     assert_relative_eq!(report.number("objective/value"), mean, max_relative = 1e-14);
     let requirements = report.list("requirements");

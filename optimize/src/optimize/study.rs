@@ -29,8 +29,9 @@ pub struct ToleranceStudy {
     pub required: Vec<Requirement>,
     /// What the machines have shown.
     pub verdict: Verdict,
-    /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
-    pub slowest: f64,
+    /// The slowest impact in m/s that was found between the bounds, by steps down from the design or seen: of the drawing and of
+    /// each case.
+    pub slowest: Vec<f64>,
     /// Where the motion is lost as all tolerances grow, the nearest manifold first, if that is looked for so far: of the drawing and of
     /// each case.
     pub nearest: Vec<Vec<Nearest>>,
@@ -57,6 +58,11 @@ pub struct DesignWithoutTolerances {
 }
 
 impl ToleranceStudy {
+    /// The slowest impact in m/s that was found between the bounds in the drawing or in a case.
+    pub(crate) fn slowest(&self, case: Option<usize>) -> f64 {
+        self.slowest[case.map_or(0, |index| index + 1)]
+    }
+
     /// The factor by which all tolerances may grow in the drawing or in a case until the motion is lost, if that is looked for so far.
     pub(crate) fn factor(&self, case: Option<usize>) -> Option<f64> {
         let nearest = &self.nearest[case.map_or(0, |index| index + 1)];
@@ -110,6 +116,14 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<ToleranceStud
         Ok::<_, Failure>(found)
     };
     let points = problem.operating_points(design);
+    let slowest = points.iter().map(|it| {
+        let seen = verdict.for_case(it.case).slowest;
+        let spread = it.problem.spread(&it.design.machine);
+        spread.map_or(Ok(seen), |spread| {
+            slowest(&spread, &it.design.orbit, seen).map_err(stopped)
+        })
+    });
+    let slowest = slowest.collect::<Result<Vec<f64>, Failure>>()?;
     let nearest = points.iter().map(|it| {
         let spread = it.problem.spread(&it.design.machine);
         spread.map_or(Ok(Vec::new()), |spread| {
@@ -122,7 +136,7 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<ToleranceStud
     let motions = (nominal, &design.zone);
     let scatter = scatter(&spread.over(EVEN), motions, SampleSize::default(), watcher);
     let study = ToleranceStudy {
-        slowest: slowest(&spread, nominal, &verdict).map_err(stopped)?,
+        slowest,
         verdict,
         required,
         nearest,
@@ -141,12 +155,12 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<ToleranceStud
     Ok(Some(study))
 }
 
-/// The slowest impact in m/s of the machines that keep the motion: by steps down from the nominal one, or seen.
-fn slowest(spread: &Tolerances, nominal: &Orbit, verdict: &Verdict) -> Result<f64, OrbitError> {
+/// The slowest impact in m/s of the machines that keep the motion: by steps down from the nominal one, or `seen`.
+fn slowest(spread: &Tolerances, nominal: &Orbit, seen: f64) -> Result<f64, OrbitError> {
     let figures = [(Figure::Velocity, Sense::Least)];
     let found = worst(spread, nominal, &figures, &interrupt::watch)?;
     let found = found.iter().map(|it| it.value);
-    Ok(found.fold(verdict.drawing.slowest, f64::min))
+    Ok(found.fold(seen, f64::min))
 }
 
 /// What becomes of the best design without tolerances with them; none if it has no box of them.
@@ -164,7 +178,7 @@ fn without(
     Ok(Some(DesignWithoutTolerances {
         // Steps down end wherever the motion is lost.
         slowest: match lost {
-            0 => self::slowest(&spread, &design.orbit, &verdict)?,
+            0 => self::slowest(&spread, &design.orbit, slowest)?,
             _ => slowest.min(design.before_impact_velocity()),
         },
         design: design.clone(),

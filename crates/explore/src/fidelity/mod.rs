@@ -56,7 +56,7 @@ pub struct FidelityArguments {
     #[arg(long, value_name = "QUANTITY", value_parser = quantity(),
           default_value = Quantity::BeforeImpactVelocity.name())]
     pub quantity: Quantity,
-    /// Largest error of the quantity, relative to the scene's own, >= 0
+    /// Largest error of the quantity, relative to the machine's own (of impact_phase a share of the drive period), >= 0
     #[arg(long, value_name = "SHARE", default_value_t = 1e-3)]
     pub tolerance: f64,
     /// What soft models have in common with the contact, besides the restitution

@@ -31,7 +31,7 @@ pub(super) fn columns<'a>() -> [Column<AnswerRow<'a>>; 8] {
         "quantity" [None], "what is compared" => it.quantity.name();
         "unit" [None], "of its value" => unit(it.machine, it.quantity);
         "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, &it.model.answers);
-        "error" [None], "relative to the machine's own value; of another regime inf, which JSON has as null" => it.study.truth.error(&it.model.answers, it.quantity);
+        "error" [None], "relative to the machine's own value, of impact_phase as a share of the drive period; of another regime inf, which JSON has as null" => it.study.truth.error(&it.model.answers, it.quantity);
         "evaluations_per_period" [None], "of the law of force" => it.model.evaluations_per_period;
         "microseconds_per_period" [Of("us")], "median" => it.model.microseconds_per_period;
     }

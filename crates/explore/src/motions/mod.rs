@@ -22,7 +22,7 @@ Examples:
   softstop motions --set eta=0.9875 --set clearance=10
       three motions coexist: chaos, z = 2/3 and (2/4)B of the paper's Fig. 9
   softstop motions --set eta=0.9526475
-      below g0: z = 0, and chaos that ends after some 12,000 periods
+      below g0: z = 0, and chaos that ends after some 10,000 periods
   softstop motions --set eta=0.9875 --output three
       the same with a picture of each in the phase plane
   softstop motions docs/scenes/rigid.toml --starts 1000

@@ -26,7 +26,7 @@ pub(super) fn histogram(design: &Design, study: &ToleranceStudy) -> Figure {
     let bars =
         bars.map(|([low, high], count)| [(low, high), (0.0, 100.0 * count as f64 / counted)]);
     let nominal = own(design.before_impact_velocity());
-    let worst = own(study.slowest);
+    let worst = own(study.slowest(None));
     let marks = [("design", nominal), ("worst", worst)];
     let marks = bounds(&marks, AT);
     let x = machine.label("before-impact velocity", "", Dimension::Velocity);
