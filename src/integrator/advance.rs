@@ -167,11 +167,6 @@ impl Motion {
         MotionError::Stalled { time, position }
     }
 
-    fn over_budget(&self) -> MotionError {
-        let time = self.clock.time(self.now);
-        MotionError::OverBudget { time }
-    }
-
     fn endless(&self) -> MotionError {
         let (time, position) = (self.clock.time(self.now), self.course.departure.position);
         MotionError::Endless { time, position }
@@ -194,7 +189,9 @@ impl Motion {
             let search = || first_crossing(&self.course, &self.present_guards(), node, until);
             let found = is_open.then(search);
             let found = found.filter(|_| !budget::is_spent());
-            self.outlook = found.ok_or_else(|| self.over_budget())?;
+            self.outlook = found.ok_or_else(|| MotionError::OverBudget {
+                time: self.clock.time(self.now),
+            })?;
         }
         if let NextEvent::Unbounded(node) = &self.outlook
             && node.elapsed < horizon
