@@ -5,7 +5,6 @@ use super::clock::{Clock, Instant};
 use super::motion::Motion;
 use super::observer::Observer;
 use super::simulation::{Checkpoint, Simulation};
-use super::tallies::Counts;
 use super::work::Work;
 use crate::error::MotionError;
 use crate::flow::{Polynomial, integrate};
@@ -50,17 +49,11 @@ impl Simulation {
     #[must_use]
     pub fn at_checkpoint(&self) -> Self {
         let motion = self.motion_at_checkpoint();
-        let mut machine = self.clone();
-        machine.now = self.time_of(motion.now());
+        let mut machine = self.before_advance().unwrap_or_else(|| Self {
+            now: self.time_of(motion.now()),
+            ..self.clone()
+        });
         machine.counts.work = Work::default();
-        if let Checkpoint::Before(origin) = &self.checkpoint {
-            machine.now = origin.now;
-            let work = machine.counts.work;
-            machine.counts = Counts {
-                work,
-                ..origin.counts
-            };
-        }
         machine.checkpoint = Checkpoint::OnArc(motion.now());
         machine.motion = motion;
         machine
