@@ -7,7 +7,7 @@
 use super::guard::Guard;
 use super::rise_verdict::{GuardPoint, RiseVerdict, bracket_of_rise, judge_interval};
 use crate::budget;
-use crate::flow::{DEGREE, value_and_rate};
+use crate::flow::{DEGREE, derivative, value_and_rate};
 use crate::root_finding::bracketed_newton;
 
 /// A guard as a polynomial on [0, span], with a bound on its fourth derivative and its rounding.
@@ -61,7 +61,7 @@ impl GuardPolynomial<'_> {
     /// The one extremum of the guard between two points: the zero of its derivative, by bracketed Newton.
     fn extremum_between(&self, left: GuardPoint, right: GuardPoint) -> GuardPoint {
         let sign = if left.rate > 0.0 { -1.0 } else { 1.0 };
-        let derivative = self.derivative_coefficients();
+        let derivative = derivative(self.coefficients);
         let at = bracketed_newton(
             (left.at, sign * left.rate),
             (right.at, sign * right.rate),
@@ -91,14 +91,6 @@ impl GuardPolynomial<'_> {
         bracketed_newton((low.at, low.value), (high.at, high.value), guess, |s| {
             value_and_rate(self.coefficients, s)
         })
-    }
-
-    fn derivative_coefficients(&self) -> [f64; DEGREE + 1] {
-        let mut rates = [0.0; DEGREE + 1];
-        for (n, c) in self.coefficients.iter().enumerate().skip(1) {
-            rates[n - 1] = n as f64 * c;
-        }
-        rates
     }
 
     /// The guard polynomial and its derivative at a place.

@@ -168,6 +168,6 @@ pub(super) fn integral_of_product(a: &Series, b: &Series, to: f64) -> f64 {
 }
 
 /// The derivative of a series.
-pub(super) fn derivative(series: &Series) -> Series {
+pub(crate) fn derivative(series: &Series) -> Series {
     std::array::from_fn(|k| series.get(k + 1).map_or(0.0, |c| (k + 1) as f64 * c))
 }
