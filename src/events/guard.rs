@@ -44,14 +44,6 @@ impl Guard {
         }
     }
 
-    /// The guard that the velocity turns from positive to negative.
-    pub const fn turning_back() -> Self {
-        Self {
-            velocity: -1.0,
-            ..Self::NONE
-        }
-    }
-
     /// The guard that the velocity turns from negative to positive.
     pub const fn turning_forward() -> Self {
         Self {
@@ -65,15 +57,6 @@ impl Guard {
         Self {
             forcing: 1.0,
             level,
-            ..Self::NONE
-        }
-    }
-
-    /// The guard that the forcing per mass falls below `level` m/s^2.
-    pub const fn forcing_below(level: f64) -> Self {
-        Self {
-            forcing: -1.0,
-            level: -level,
             ..Self::NONE
         }
     }

@@ -169,8 +169,9 @@ impl PhaseBuilder<'_> {
         };
         if inward != outward {
             let reversal = Exit::Reversal { forward, backward };
-            self.add_exit(inward, Guard::turning_back(), reversal);
-            self.add_exit(outward, Guard::turning_forward(), reversal);
+            let turning_forward = Guard::turning_forward();
+            self.add_exit(inward, turning_forward.negated(), reversal);
+            self.add_exit(outward, turning_forward, reversal);
         }
         if let Some((law, pulls)) = plan.released {
             let released = self.add_phase(PhaseKind::Released, law, None, store);

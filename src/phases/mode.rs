@@ -242,7 +242,7 @@ impl Phases {
         let balance = |phase| -self.acceleration(phase, position, 0.0, 0.0);
         // A hold may begin within rounding of a balance; the guard then begins at zero.
         let on = |phase| Guard::forcing_above(balance(phase).max(forcing));
-        let back = |phase| Guard::forcing_below(balance(phase).min(forcing));
+        let back = |phase| Guard::forcing_above(balance(phase).min(forcing)).negated();
         let (forward, backward) = (hold.forward.map(on), hold.backward.map(back));
         forward.into_iter().chain(backward).collect()
     }

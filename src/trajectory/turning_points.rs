@@ -27,11 +27,8 @@ pub fn turning_points(
         if !moves || budget::is_spent() {
             return None;
         }
-        let guard = if back {
-            Guard::turning_back()
-        } else {
-            Guard::turning_forward()
-        };
+        let forward = Guard::turning_forward();
+        let guard = if back { forward.negated() } else { forward };
         match first_crossing(course, &[guard], node, duration) {
             NextEvent::Crossing(found) if found.elapsed <= duration => {
                 let turn = TurningPoint {
