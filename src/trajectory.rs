@@ -134,7 +134,15 @@ impl Trajectory {
     /// One arc of the trajectory as observers see it.
     #[doc(hidden)]
     pub fn observed_arc<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
-        kept.seen(&self.clock, self.scene.phases())
+        Arc {
+            start: kept.start,
+            clock: &self.clock,
+            course: &kept.course,
+            phase: kept.phase.map(|phase| &self.scene.phases()[phase]),
+            kind: kept.kind,
+            side: kept.side,
+            end: kept.end,
+        }
     }
 
     /// Tells an observer of all arcs and crossings, as the motion did.
@@ -209,7 +217,16 @@ impl Trajectory {
 
 impl Observer for Trajectory {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.arcs.push(KeptArc::new(arc, elapsed));
+        self.arcs.push(KeptArc {
+            start: arc.start,
+            duration: elapsed,
+            course: arc.course.clone(),
+            kind: arc.kind,
+            phase: arc.phase.map(|phase| phase.id),
+            crossing: None,
+            side: arc.side,
+            end: arc.end,
+        });
     }
 
     fn crossing(&mut self, crossing: &Crossing) {

@@ -71,11 +71,6 @@ impl LinearLaw {
         }
     }
 
-    /// The matrix d(x, v)(elapsed) / d(x, v)(0) of the free motion by the linear law.
-    pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
-        self.modes.transition(elapsed)
-    }
-
     /// Damping over mass of the linear law, 2 a, in 1/s.
     pub fn damping(&self) -> f64 {
         2.0 * self.modes.decay

@@ -99,7 +99,7 @@ impl ArcSolution {
             let force = since.and_then(|since| self.frequency_variation_force(step, since));
             return step.state_transition(elapsed, force.as_ref());
         }
-        let matrix = self.flow.transition(elapsed);
+        let matrix = self.flow.modes.transition(elapsed);
         let by_frequency = match (&self.form, since) {
             (Form::Particular { particular, .. }, Some(since)) => {
                 let answer = |elapsed: f64, drive| {

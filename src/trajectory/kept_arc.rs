@@ -1,8 +1,8 @@
 //! One arc of a trajectory, kept.
 
 use crate::flow::{ArcSolution, DriveAngle};
-use crate::integrator::{Arc, Clock, Crossing, Instant, Start};
-use crate::phases::{PhaseId, PhaseKind, Phases};
+use crate::integrator::{Crossing, Instant, Start};
+use crate::phases::{PhaseId, PhaseKind};
 
 /// One arc of a trajectory.
 #[derive(Debug, Clone)]
@@ -25,35 +25,4 @@ pub struct KeptArc {
     pub crossing: Option<Crossing>,
     pub(super) side: f64,
     pub(super) end: Option<(f64, Start, DriveAngle)>,
-}
-
-impl KeptArc {
-    /// An arc that has ended so many seconds after its start.
-    #[doc(hidden)]
-    pub fn new(arc: &Arc<'_>, duration: f64) -> Self {
-        Self {
-            start: arc.start,
-            duration,
-            course: arc.course.clone(),
-            kind: arc.kind,
-            phase: arc.phase.map(|phase| phase.id),
-            crossing: None,
-            side: arc.side,
-            end: arc.end,
-        }
-    }
-
-    /// The arc as an observer of a motion through these phases sees it.
-    #[doc(hidden)]
-    pub fn seen<'a>(&'a self, clock: &'a Clock, phases: &'a Phases) -> Arc<'a> {
-        Arc {
-            start: self.start,
-            clock,
-            course: &self.course,
-            phase: self.phase.map(|phase| &phases[phase]),
-            kind: self.kind,
-            side: self.side,
-            end: self.end,
-        }
-    }
 }

@@ -254,7 +254,7 @@ impl MultiSegmentShooting {
             let course = &passing.course;
             let forcing = course.flow.amplitude * drive.cos;
             let acceleration = course.flow.acceleration(position, velocity, forcing);
-            let through = course.flow.transition(flight) * passing.tangent.matrix;
+            let through = course.flow.modes.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * segment, 2 * segment, 2 * next);
             let mut fit = evaluation.residual.fixed_rows_mut::<2>(rows);
             fit.copy_from(&self.scaled_impact_gap((position, velocity), at[ahead + 1]));

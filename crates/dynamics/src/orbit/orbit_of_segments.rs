@@ -143,7 +143,7 @@ impl MultiSegmentShooting {
 /// The factor of a monodromy matrix by a free flight over a time in s.
 pub(super) fn flight_factor(flow: &LinearLaw, elapsed: f64) -> Monodromy {
     let determinant = (-flow.damping() * elapsed).exp();
-    Monodromy::with_determinant(flow.transition(elapsed), determinant)
+    Monodromy::with_determinant(flow.modes.transition(elapsed), determinant)
 }
 
 /// Advances a motion to an instant, and returns the tangent of its way.
