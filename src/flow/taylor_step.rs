@@ -22,6 +22,7 @@ use super::power_law::PowerLaw;
 use super::series::{Series, ZERO, curved_part, derivative, power_series, product, value};
 use super::slow_manifold::SlowManifold;
 use super::taylor_polynomials::{value_and_rate, value_and_rate_from};
+use crate::root_finding::bracketed_newton;
 
 /// One Taylor step of a motion: series in sigma, which is time or a regularised time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -157,7 +158,7 @@ impl TaylorStep {
         }
     }
 
-    /// The sigma that belongs to a time since departure: Newton's method on a function that grows, kept inside its bracket.
+    /// The sigma that belongs to a time since departure.
     pub fn sigma_after(&self, elapsed: f64) -> f64 {
         if elapsed >= self.end {
             return self.contact;
@@ -165,31 +166,16 @@ impl TaylorStep {
         let Some(regularized) = &self.regularized else {
             return elapsed;
         };
-        if elapsed == 0.0 {
+        if elapsed <= 0.0 {
             return 0.0;
         }
-        let (mut low, mut high) = (0.0, self.contact);
-        let mut at = self.contact * (elapsed / self.end);
-        for _ in 0..100 {
-            let (time, rate) = value_and_rate(&regularized.time, at);
-            if time > elapsed {
-                high = at;
-            } else {
-                low = at;
-            }
-            let newton = at - (time - elapsed) / rate;
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            let settled = (time - elapsed).abs() <= f64::EPSILON * elapsed;
-            if settled || next <= low || next >= high {
-                return at;
-            }
-            at = next;
-        }
-        at
+        let begin = (0.0, -elapsed);
+        let end = (self.contact, self.end - elapsed);
+        let guess = self.contact * (elapsed / self.end);
+        bracketed_newton(begin, end, Some(guess), |sigma| {
+            let (time, rate) = value_and_rate(&regularized.time, sigma);
+            (time - elapsed, rate)
+        })
     }
 
     /// Position in m and velocity in m/s on the step at a time since departure.
