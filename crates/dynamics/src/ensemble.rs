@@ -160,8 +160,9 @@ struct OpenMembers<'a, const IMPACTS: bool, const PERIODS: bool, M>(Vec<&'a mut 
 impl<const IMPACTS: bool, const PERIODS: bool, M: HasMember> BatchObserver
     for OpenMembers<'_, IMPACTS, PERIODS, M>
 {
-    const IMPACTS: bool = IMPACTS;
-    const PERIODS: bool = PERIODS;
+    fn observed(&self) -> (bool, bool) {
+        (IMPACTS, PERIODS)
+    }
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         let cycles = cycle as f64;

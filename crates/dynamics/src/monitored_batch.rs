@@ -8,10 +8,10 @@ use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome};
 
 /// Follows motions (machine index, state, drive periods) in the lanes on this thread and charges their work to the budget; none
 /// if `ask` or the budget ended the batch.
-pub(crate) fn follow_batch<W: BatchObserver>(
+pub(crate) fn follow_batch(
     machines: &[LoweredMachine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,
-    watch: &mut W,
+    watch: &mut dyn BatchObserver,
     ask: impl FnMut() -> ControlFlow<()>,
 ) -> Option<Vec<Outcome>> {
     let job = |(machine, start, periods)| Job {
@@ -39,19 +39,18 @@ const LANE_WORK_COST: u64 = 2;
 const BATCH_COST: u64 = 1 << 10;
 
 /// Passes on to an observer what happens in a batch, charges its work to the budget, and asks a monitor.
-struct MonitoredObserver<'a, W, A> {
-    watch: &'a mut W,
+struct MonitoredObserver<'a, A> {
+    watch: &'a mut dyn BatchObserver,
     ask: A,
     answer: ControlFlow<()>,
     /// Scan windows of the budget that were left when the monitor was asked last.
     left: u64,
 }
 
-impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver
-    for MonitoredObserver<'_, W, A>
-{
-    const IMPACTS: bool = W::IMPACTS;
-    const PERIODS: bool = W::PERIODS;
+impl<A: FnMut() -> ControlFlow<()>> BatchObserver for MonitoredObserver<'_, A> {
+    fn observed(&self) -> (bool, bool) {
+        self.watch.observed()
+    }
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         self.watch.impact(job, cycle, offset, velocity);

@@ -112,7 +112,9 @@ fn machines() -> impl Strategy<Value = Scene> {
 struct Ends(Vec<[Start; 2]>);
 
 impl BatchObserver for Ends {
-    const PERIODS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (false, true)
+    }
 
     fn period(&mut self, job: usize, _: u64, state: Start) {
         self.0[job] = [self.0[job][1], state];

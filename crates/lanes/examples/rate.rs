@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use softstop::{CheckedScene, Ratios, Start};
-use softstop_lanes::{InstructionLimit, Job, LoweredMachine, run_parallel};
+use softstop_lanes::{Job, LoweredMachine, run_parallel};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let numbers = std::env::args().skip(1).map(|word| word.parse());
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             periods,
         };
         let jobs: Vec<Job> = (0..machines.len()).map(job).collect();
-        let (outcomes, _) = run_parallel(InstructionLimit::Widest, &machines, &jobs, |_| ());
+        let (outcomes, _) = run_parallel(&machines, &jobs, |_| ());
         let impacts: u64 = outcomes.iter().map(|it| it.impacts).sum();
         if repeat > 0 {
             println!("{} {impacts}", begin.elapsed().as_secs_f64());

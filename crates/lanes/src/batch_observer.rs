@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 
 use softstop::Start;
 
-/// An observer of the motions of a batch: it implements what it observes, and sets the constants for that to true.
+/// An observer of the motions of a batch: it implements what it observes, and says so.
 pub trait BatchObserver {
-    /// True if the observer is told of impacts.
-    const IMPACTS: bool = false;
-    /// True if the observer is told of the ends of drive periods.
-    const PERIODS: bool = false;
+    /// Whether the observer is told of impacts, and of the ends of drive periods.
+    fn observed(&self) -> (bool, bool) {
+        (false, false)
+    }
 
     /// Told of an impact of a job's motion `offset` seconds into drive period `cycle`, with its velocity towards the stop.
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
@@ -30,9 +30,11 @@ pub trait BatchObserver {
 /// Watches nothing.
 impl BatchObserver for () {}
 
-/// An observer of whatever type behind one type, so that the engine is compiled once for all observers.
+/// An observer of a batch with what it observes, and its latest answer.
 pub(super) struct ObserverHandle<'a> {
-    pub observer: &'a mut dyn DynamicObserver,
+    observer: &'a mut dyn BatchObserver,
+    /// The index of the batch's first job among those that the observer knows.
+    first: usize,
     /// Whether it is told of impacts and of periods.
     pub impacts: bool,
     pub periods: bool,
@@ -46,12 +48,14 @@ pub(super) struct ObserverHandle<'a> {
 const WORK_BETWEEN_QUESTIONS: u64 = 1 << 15;
 
 impl<'a> ObserverHandle<'a> {
-    /// Wraps an observer.
-    pub fn new<W: BatchObserver>(observer: &'a mut W) -> Self {
+    /// The handle of an observer that knows the batch's first job by the index `first`.
+    pub fn new(observer: &'a mut dyn BatchObserver, first: usize) -> Self {
+        let (impacts, periods) = observer.observed();
         Self {
             observer,
-            impacts: W::IMPACTS,
-            periods: W::PERIODS,
+            first,
+            impacts,
+            periods,
             work: 0,
             answer: ControlFlow::Continue(()),
         }
@@ -61,29 +65,19 @@ impl<'a> ObserverHandle<'a> {
     pub fn count_work(&mut self, windows: u64) -> ControlFlow<()> {
         self.work += windows;
         if self.work >= WORK_BETWEEN_QUESTIONS && self.answer.is_continue() {
-            (self.work, self.answer) = (0, self.observer.ask_to_go_on());
+            (self.work, self.answer) = (0, self.observer.goes_on());
         }
         self.answer
     }
-}
 
-/// The methods of [`BatchObserver`] without its constants, so that it can be a trait object.
-pub(super) trait DynamicObserver {
-    fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
-    fn tell_period(&mut self, job: usize, cycle: u64, state: Start);
-    fn ask_to_go_on(&mut self) -> ControlFlow<()>;
-}
-
-impl<W: BatchObserver> DynamicObserver for W {
-    fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
-        self.impact(job, cycle, offset, velocity);
+    /// Tells the observer of an impact of a job of the batch.
+    pub fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        let job = self.first + job;
+        self.observer.impact(job, cycle, offset, velocity);
     }
 
-    fn tell_period(&mut self, job: usize, cycle: u64, state: Start) {
-        self.period(job, cycle, state);
-    }
-
-    fn ask_to_go_on(&mut self) -> ControlFlow<()> {
-        self.goes_on()
+    /// Tells the observer that a job of the batch begins the drive period `cycle`.
+    pub fn tell_period(&mut self, job: usize, cycle: u64, state: Start) {
+        self.observer.period(self.first + job, cycle, state);
     }
 }

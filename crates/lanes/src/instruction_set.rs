@@ -58,24 +58,9 @@ impl WithSimd for MeasureRegisters {
     }
 }
 
-/// Follows all jobs with the instruction set asked for, or the widest below it that the processor has.
-pub(super) fn run_jobs<'a>(
-    machines: &'a [LoweredMachine],
-    jobs: &'a [Job],
-    watch: ObserverHandle<'a>,
-    instructions: InstructionLimit,
-) -> Vec<Outcome> {
-    let task = Task {
-        machines,
-        jobs,
-        watch,
-        at_once: usize::MAX,
-    };
-    run_task(task, instructions)
-}
-
-/// Runs a task by an instruction set with lanes in [`REGISTERS_PER_BATCH`] registers.
-fn run_task(task: Task, instructions: InstructionLimit) -> Vec<Outcome> {
+/// Runs a task by the instruction set asked for, or the widest below it that the processor has, with lanes in
+/// [`REGISTERS_PER_BATCH`] registers.
+pub(super) fn run_task(task: Task, instructions: InstructionLimit) -> Vec<Outcome> {
     dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions)
 }
 
@@ -123,7 +108,7 @@ pub(super) fn run_one_by_one<W: BatchObserver>(
     let task = Task {
         machines,
         jobs,
-        watch: ObserverHandle::new(watch),
+        watch: ObserverHandle::new(watch, 0),
         at_once: 1,
     };
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

@@ -90,10 +90,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             {
                 let offset = self.state.offset.get(lane);
                 let speed = velocity.get(lane).abs();
-                self.task
-                    .watch
-                    .observer
-                    .tell_impact(job, cycle, offset, speed);
+                self.task.watch.tell_impact(job, cycle, offset, speed);
             }
         }
     }
@@ -105,7 +102,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 && let Some((job, cycle)) = self.job_progress_with(lane, left.get(lane))
             {
                 let state = Start::new(x.get(lane), v.get(lane));
-                self.task.watch.observer.tell_period(job, cycle, state);
+                self.task.watch.tell_period(job, cycle, state);
             }
         }
     }

@@ -93,7 +93,7 @@ pub(super) fn follow_safely(
         let state = motion.state();
         outcome.end = state;
         if counter.watch.periods {
-            counter.watch.observer.tell_period(place.job, cycle, state);
+            counter.watch.tell_period(place.job, cycle, state);
         }
         if cycle < periods
             && let Some(phase) = lane_phase(machine, &motion)
@@ -157,7 +157,6 @@ impl Observer for Counter<'_, '_> {
             if self.watch.impacts {
                 let Instant { cycles, offset } = crossing.instant;
                 self.watch
-                    .observer
                     .tell_impact(self.job, cycles as u64, offset, velocity);
             }
         }

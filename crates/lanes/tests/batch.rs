@@ -271,8 +271,9 @@ fn compare_told(scene: &Scene, starts: Vec<Start>) {
         period: f64,
     }
     impl BatchObserver for Heard {
-        const IMPACTS: bool = true;
-        const PERIODS: bool = true;
+        fn observed(&self) -> (bool, bool) {
+            (true, true)
+        }
         fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
             let time = cycle as f64 * self.period + offset;
             self.impacts.entry(job).or_default().push((time, velocity));

@@ -4,9 +4,7 @@ use std::ops::ControlFlow;
 
 use rayon::ThreadPoolBuilder;
 use softstop::{Ratios, Scene, Start};
-use softstop_lanes::{
-    BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run, run_parallel,
-};
+use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome, run, run_parallel};
 use softstop_testing::tolerance::SOLVED;
 use softstop_testing::{assert_near, hertz};
 
@@ -37,7 +35,9 @@ fn fleet() -> (Vec<LoweredMachine>, Vec<Job>) {
 struct Heard(Vec<(usize, f64)>);
 
 impl BatchObserver for Heard {
-    const IMPACTS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (true, false)
+    }
 
     fn impact(&mut self, job: usize, _: u64, _: f64, velocity: f64) {
         self.0.push((job, velocity));
@@ -48,7 +48,7 @@ fn on(threads: usize) -> (Vec<Outcome>, Vec<(usize, f64)>) {
     let (machines, jobs) = fleet();
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let (outcomes, watches) = pool.expect("threads").install(|| {
-        run_parallel(InstructionLimit::Widest, &machines, &jobs, |range| {
+        run_parallel(&machines, &jobs, |range| {
             assert!(!range.is_empty() && range.end <= JOBS);
             Heard(Vec::new())
         })

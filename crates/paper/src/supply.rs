@@ -208,7 +208,9 @@ struct Counter<'a> {
 }
 
 impl BatchObserver for Counter<'_> {
-    const IMPACTS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (true, false)
+    }
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
         let motion = &mut self.motions[job];

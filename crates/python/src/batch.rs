@@ -45,7 +45,9 @@ struct Impacts {
 }
 
 impl BatchObserver for Impacts {
-    const IMPACTS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (true, false)
+    }
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         if cycle >= self.from {

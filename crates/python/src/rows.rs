@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use softstop::{CheckedScene, Machine as Stated, MotionError, Parameter, Scene, Start};
 use softstop_console::failure::check_interrupt;
 use softstop_console::progress::Progress;
-use softstop_lanes::{BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run_parallel};
+use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome, run_parallel};
 
 use crate::errors::{MachineError, of_failure, of_machine, of_motion, of_scene};
 use crate::machine::Machine;
@@ -117,7 +117,7 @@ impl<'a> Rows<'a> {
                 progress.more(part.len() as u64);
                 watch(first)
             };
-            let done = run_parallel(InstructionLimit::Widest, &machines, &jobs, watch);
+            let done = run_parallel(&machines, &jobs, watch);
             outcomes.extend(done.0);
             watches.extend(done.1);
             check_interrupt().map_err(of_failure)?;

@@ -154,8 +154,9 @@ struct TrialRecorder<'a, 'b> {
 }
 
 impl BatchObserver for TrialRecorder<'_, '_> {
-    const IMPACTS: bool = true;
-    const PERIODS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (true, true)
+    }
 
     fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
         self.trials[job].impacts += 1;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
 use softstop_console::machine::PaperMachine;
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run_parallel};
+use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome, run_parallel};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -130,7 +130,7 @@ impl MotionBatch {
         let machines = machines.map(|scene| Ok(LoweredMachine::new(&scene.check()?)));
         let machines: Vec<LoweredMachine> = machines.collect::<Result<_, SceneError>>()?;
         let jobs = self.jobs.repeat(rounds);
-        let (outcomes, _) = run_parallel(InstructionLimit::Widest, &machines, &jobs, |_| ());
+        let (outcomes, _) = run_parallel(&machines, &jobs, |_| ());
         Count::of(&outcomes)
     }
 }
@@ -139,7 +139,9 @@ impl MotionBatch {
 pub struct EachImpact;
 
 impl BatchObserver for EachImpact {
-    const IMPACTS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (true, false)
+    }
 }
 
 impl Count {

@@ -11,7 +11,7 @@ use softstop_console::failure::Failure;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
 use softstop_explore::study::Study;
-use softstop_lanes::{InstructionLimit, Job, LoweredMachine, run_parallel};
+use softstop_lanes::{Job, LoweredMachine, run_parallel};
 
 /// Points whose machines are in memory at once.
 const TOGETHER: u64 = 1 << 13;
@@ -93,7 +93,7 @@ fn lanes(study: &Study) -> Result<f64, MotionError> {
             .par_iter()
             .map(|it| Ok(LoweredMachine::new(&it.check(None)?)));
         let lowered: Vec<LoweredMachine> = lowered.collect::<Result<_, SceneError>>()?;
-        run_parallel(InstructionLimit::Widest, &lowered, &jobs, |_| ());
+        run_parallel(&lowered, &jobs, |_| ());
         seconds += begin.elapsed().as_secs_f64();
     }
     Ok(seconds)

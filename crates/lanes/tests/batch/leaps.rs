@@ -111,7 +111,9 @@ fn what_settles_slowly_ends_there_too() {
 struct Impacts(Vec<u64>);
 
 impl BatchObserver for Impacts {
-    const IMPACTS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (true, false)
+    }
     fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
         self.0[job] += 1;
     }

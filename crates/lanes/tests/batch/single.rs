@@ -34,7 +34,7 @@ pub fn in_a_lane(
     scene: &Scene,
     start: Start,
     periods: u64,
-    watch: &mut impl BatchObserver,
+    watch: &mut dyn BatchObserver,
 ) -> Outcome {
     let machines = [LoweredMachine::new(&scene.check().expect("valid"))];
     let job = Job {
@@ -51,7 +51,7 @@ pub fn one_by_one(
     scene: &Scene,
     start: Start,
     periods: u64,
-    watch: &mut impl BatchObserver,
+    watch: &mut dyn BatchObserver,
 ) -> (Start, u64) {
     let outcome = in_a_lane(scene, start, periods, watch);
     (outcome.end, outcome.impacts)
@@ -95,7 +95,9 @@ fn a_machine_without_a_stop_moves_on() {
 pub struct Periods;
 
 impl BatchObserver for Periods {
-    const PERIODS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (false, true)
+    }
 }
 
 #[test]
@@ -152,7 +154,9 @@ fn endless_bounces_under_a_slow_drive_are_left_to_the_safe_engine() {
 struct EachPeriod(Vec<(u64, Start)>);
 
 impl BatchObserver for EachPeriod {
-    const PERIODS: bool = true;
+    fn observed(&self) -> (bool, bool) {
+        (false, true)
+    }
 
     fn period(&mut self, _: usize, cycle: u64, state: Start) {
         self.0.push((cycle, state));
