@@ -31,7 +31,7 @@ use super::lane_laws::Laws;
 use super::lane_states::LaneStates;
 use super::lanes::{Lanes, Mask};
 use super::lowered_machine::LoweredMachine;
-use super::phase_graph::{PhaseGraph, phase_order};
+use super::phase_order::phase_order;
 use super::return_history::ReturnHistory;
 use super::safe_engine::{Resumed, SafeStart, start_phase};
 
@@ -74,17 +74,14 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     #[inline(always)]
     pub fn new(simd: S, task: Task<'a>) -> Self {
         // Of the machines that have jobs: there may be many more.
-        let machines = task.jobs.iter().map(|job| &task.machines[job.machine]);
-        let outlines = machines.filter_map(|machine| machine.outline.as_ref());
-        let outlines = PhaseGraph::distinct(outlines);
-        let most = outlines
-            .iter()
-            .map(|outline| outline.count)
-            .max()
-            .unwrap_or(1);
-        let guarded = |phase: usize| outlines.iter().any(|outline| !outline.has_one_end(phase));
-        let presses = |phase: usize| outlines.iter().any(|outline| outline.has_power_law(phase));
-        let presses: Vec<bool> = (0..most).map(presses).collect();
+        let alike = task.jobs.chunk_by(|one, next| one.machine == next.machine);
+        let machines = alike.filter_map(|jobs| task.machines[jobs[0].machine].laws.as_deref());
+        let most = machines.clone().map(<[_]>::len).max().unwrap_or(1);
+        let (mut guarded, mut presses) = (vec![false; most], vec![false; most]);
+        for (phase, law) in machines.clone().flat_map(|laws| laws.iter().enumerate()) {
+            guarded[phase] |= !law.has_one_end();
+            presses[phase] |= law.has_power_law();
+        }
         let is_any = presses.contains(&true);
         let outcomes = task.jobs.iter().map(|job| Outcome {
             end: job.start,
@@ -97,9 +94,9 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         let returns = (0..Lanes::<S, N>::COUNT).map(|_| ReturnHistory::default());
         Self {
             laws: vec![Laws::new(simd); most],
-            guarded: (0..most).map(guarded).collect(),
+            guarded,
             presses,
-            order: phase_order(&outlines, most),
+            order: phase_order(machines, most),
             state: LaneStates::idle(simd),
             power: is_any.then(|| Box::new(ContactSeries::new(simd))),
             returns: returns.collect(),

@@ -2,15 +2,16 @@
 
 use super::bounce_trains::BounceTrains;
 use super::lane_laws::PhaseConstants;
-use super::phase_graph::{MAX_PHASES, PhaseGraph};
 use softstop::CheckedScene;
+
+/// Most phases of a machine that lanes follow.
+const MAX_PHASES: usize = 16;
 
 /// A machine whose phases are made ready for the lanes, once for any number of motions.
 #[derive(Debug, Clone)]
 pub struct LoweredMachine {
     scene: CheckedScene,
     pub(super) laws: Option<Vec<PhaseConstants>>,
-    pub(super) outline: Option<PhaseGraph>,
     /// Cos and sin of the drive angle at time 0.
     pub(super) angle: (f64, f64),
 }
@@ -24,7 +25,6 @@ impl LoweredMachine {
         let laws = if for_lanes { lane_laws(&trains) } else { None };
         let (sin, cos) = drive.phase.sin_cos();
         Self {
-            outline: laws.as_deref().map(PhaseGraph::from_laws),
             laws,
             scene: scene.clone(),
             angle: (cos, sin),
