@@ -10,8 +10,7 @@ use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 use super::cycle_state::{CycleState, Derivatives, Forcing, GuardCrossing, Jet};
 use super::cycle_windows::CycleWindows;
 use super::lane_laws::{MIN_WINDOW_SHARE, PhaseConstants};
-use super::phase_guards::PhaseGuard;
-use softstop::internals::Modes;
+use softstop::internals::{Guard, Modes};
 
 /// Most windows into which a cycle is divided for the proof.
 const MAX_WINDOWS: usize = 4096;
@@ -28,8 +27,8 @@ pub(super) struct CycleArc {
     start: CycleState,
     angle: Complex<f64>,
     duration: f64,
-    entry: PhaseGuard,
-    exit: PhaseGuard,
+    entry: Guard,
+    exit: Guard,
     modes: Modes,
     /// Range of the windows of the arc among those of the cycle.
     pub windows: Range<usize>,

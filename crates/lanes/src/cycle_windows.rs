@@ -6,7 +6,7 @@ use nalgebra::Vector4;
 
 use super::cycle_state::{CycleState, Derivatives};
 use super::lane_laws::{PhaseConstants, WINDOW_ANGLE};
-use super::phase_guards::PhaseGuard;
+use softstop::internals::Guard;
 
 /// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the error M
 /// h^4 / 384 of its value; M: largest fourth derivative (Birkhoff and Priver 1967).
@@ -60,7 +60,7 @@ impl CycleWindows {
         law: &PhaseConstants,
         (from, to): (&CycleState, &CycleState),
         step: f64,
-        (entry, exit): (Option<PhaseGuard>, Option<PhaseGuard>),
+        (entry, exit): (Option<Guard>, Option<Guard>),
         at_start: Derivatives,
     ) -> bool {
         let share = step * law.per_window;
@@ -74,7 +74,7 @@ impl CycleWindows {
         let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
         let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs() * longer;
         let rate_error_bound = scale * (law.rate_steady + rate_fifth + rate_sixth);
-        let margin = |guard: PhaseGuard| {
+        let margin = |guard: Guard| {
             let error_bound =
                 guard.position.abs() * error_bound + guard.velocity.abs() * rate_error_bound;
             let ambiguity = match guard.velocity {
@@ -125,16 +125,14 @@ impl CycleWindows {
 
 impl WindowMargin {
     fn of_guard(
-        guard: &PhaseGuard,
+        guard: &Guard,
         (from, to): (&CycleState, &CycleState),
         step: f64,
         (error_bound, ambiguity): (f64, f64),
         (is_entry, is_exit): (bool, bool),
     ) -> Self {
-        let PhaseGuard {
-            position,
-            velocity,
-            level,
+        let Guard {
+            position, velocity, ..
         } = *guard;
         let mut margin = Self {
             position,
@@ -144,7 +142,7 @@ impl WindowMargin {
             rate: f64::NEG_INFINITY,
             second: f64::NEG_INFINITY,
         };
-        let value = |[x, v, ..]: [f64; 4]| position * x + velocity * v - level;
+        let value = |[x, v, ..]: [f64; 4]| guard.value_at(x, v);
         let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
         let (g0, g1) = (value(from.jet), value(to.jet));
         let (r0, r1) = (rate(from.jet), rate(to.jet));

@@ -2,18 +2,11 @@
 
 use super::cycle_state::GuardCrossing;
 use super::lane_laws::PhaseConstants;
-
-/// A guard that ends a phase where `position` x + `velocity` v = `level`; inside the phase the left side is smaller.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct PhaseGuard {
-    pub position: f64,
-    pub velocity: f64,
-    pub level: f64,
-}
+use softstop::internals::Guard;
 
 impl PhaseConstants {
     /// The guard of the phase that a crossing is of, told by its position.
-    pub fn crossed_guard(&self, crossing: &GuardCrossing) -> PhaseGuard {
+    pub fn crossed_guard(&self, crossing: &GuardCrossing) -> Guard {
         let [high, low, further] = self.guards();
         match crossing.position {
             x if x == high.level => high,
@@ -24,16 +17,17 @@ impl PhaseConstants {
 
     /// The guards that end the phase: the upper position, the lower one, and the further guard (friction, release of contact);
     /// with the level at infinity where there is none.
-    pub fn guards(&self) -> [PhaseGuard; 3] {
-        let guard = |position, velocity, level| PhaseGuard {
-            position,
-            velocity,
-            level,
+    pub fn guards(&self) -> [Guard; 3] {
+        let further = Guard {
+            position: self.by_position,
+            velocity: self.by_velocity,
+            forcing: 0.0,
+            level: self.level,
         };
         [
-            guard(1.0, 0.0, self.high),
-            guard(-1.0, 0.0, -self.low),
-            guard(self.by_position, self.by_velocity, self.level),
+            Guard::rising_to(self.high),
+            Guard::falling_to(self.low),
+            further,
         ]
     }
 }
