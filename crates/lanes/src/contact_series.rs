@@ -14,6 +14,7 @@ use pulp::Simd;
 use super::contact_state::ContactState;
 use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
+use super::local_taylor::value_and_rate;
 
 /// Degree of the power series of a contact in the regularised time sigma; odd.
 pub(super) const DEGREE: usize = 25;
@@ -288,21 +289,6 @@ pub(super) fn solve_series<S: Simd, const N: usize>(
         }
     }
     (at, of.and_not(open))
-}
-
-/// Value and first derivative of a series at `at`.
-#[inline(always)]
-pub(super) fn value_and_rate<S: Simd, const N: usize>(
-    series: &Terms<S, N>,
-    at: Lanes<S, N>,
-) -> Pair<S, N> {
-    let mut value = series[DEGREE];
-    let mut rate = at.like(0.0);
-    for k in (0..DEGREE).rev() {
-        rate = rate.mul_add(at, value);
-        value = value.mul_add(at, series[k]);
-    }
-    (value, rate)
 }
 
 /// Coefficient k of the product of two power series.

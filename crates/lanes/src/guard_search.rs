@@ -159,7 +159,7 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
             goal.at = open.choose(next, goal.at);
             let tops = goal.humps & zeros.sure;
             if tops.any() {
-                let height = local_taylor::value_at(&local, zeros.time);
+                let height = local_taylor::value_and_rate(&local, zeros.time).0;
                 self.search_from_maximum(left, tops, height, ahead.span, &mut goal);
             }
         }

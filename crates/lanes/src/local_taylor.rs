@@ -98,17 +98,19 @@ pub(super) fn curvature_at<S: Simd, const N: usize>(
     at.mul_add(third, local[2] + local[2])
 }
 
-/// Value of a Taylor polynomial a time `at` from its centre.
+/// Value and first derivative of a Taylor polynomial, or of another power series, at `at`.
 #[inline(always)]
-pub(super) fn value_at<S: Simd, const N: usize>(
-    local: &LocalTaylor<S, N>,
+pub(super) fn value_and_rate<S: Simd, const N: usize, const T: usize>(
+    series: &[Lanes<S, N>; T],
     at: Lanes<S, N>,
-) -> Lanes<S, N> {
-    let mut value = local[TERMS - 1];
-    for term in local[..TERMS - 1].iter().rev() {
-        value = value.mul_add(at, *term);
+) -> Pair<S, N> {
+    let mut value = series[T - 1];
+    let mut rate = at.like(0.0);
+    for k in (0..T - 1).rev() {
+        rate = rate.mul_add(at, value);
+        value = value.mul_add(at, series[k]);
     }
-    value
+    (value, rate)
 }
 
 /// Position and velocity a time `moment` after the instant at which the derivatives of the motion are given.

@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::lane_laws::WINDOW_ANGLE;
 use super::lanes::{Lanes, Mask};
-use super::local_taylor::{LocalTaylor, TERMS, curvature_at};
+use super::local_taylor::{LocalTaylor, curvature_at, value_and_rate};
 
 /// Longest time from a Taylor polynomial's centre to a zero that is used, times the fastest rate of the motion, in rad.
 const MAX_ZERO_ANGLE: f64 = 0.02;
@@ -66,12 +66,7 @@ fn newton_step<S: Simd, const N: usize>(
     local: &LocalTaylor<S, N>,
     at: Lanes<S, N>,
 ) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
-    let mut value = local[TERMS - 1];
-    let mut slope = value.like(0.0);
-    for term in local[..TERMS - 1].iter().rev() {
-        slope = slope.mul_add(at, value);
-        value = value.mul_add(at, *term);
-    }
+    let (value, slope) = value_and_rate(local, at);
     let step = value / slope;
     (at - step, slope - curvature_at(local, at) * step, step)
 }
