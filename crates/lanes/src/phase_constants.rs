@@ -29,29 +29,26 @@ impl PhaseConstants {
         constants.set_linear_law(phases, phase)?;
         let mut guarded = false;
         for (guard, exit) in phase.guards.iter().zip(phase.exits.iter()) {
-            match *exit {
-                Exit::Forward(surface) => constants.end_at(phases, surface, true),
-                Exit::Backward(surface) => constants.end_at(phases, surface, false),
-                Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.forcing != 0.0 => {
-                    return None;
+            let beyond = match *exit {
+                Exit::Forward(surface) => {
+                    constants.end_at(phases, surface, true);
+                    continue;
                 }
-                Exit::Reversal { forward, backward } => {
-                    let to = if guard.velocity < 0.0 {
-                        backward
-                    } else {
-                        forward
-                    };
-                    (guarded, constants.beyond_guard) = (true, to.index() as f64);
+                Exit::Backward(surface) => {
+                    constants.end_at(phases, surface, false);
+                    continue;
                 }
-                Exit::Switch(to) => {
-                    (guarded, constants.beyond_guard) = (true, to.index() as f64);
-                }
+                Exit::Reversal { backward, .. } if guard.velocity < 0.0 => backward,
+                Exit::Reversal { forward, .. } => forward,
+                Exit::Switch(to) => to,
+            };
+            if guarded || guard.forcing != 0.0 {
+                return None;
             }
-            if matches!(exit, Exit::Reversal { .. } | Exit::Switch(_)) {
-                constants.by_position = guard.position;
-                constants.by_velocity = guard.velocity;
-                constants.level = guard.level;
-            }
+            (guarded, constants.beyond_guard) = (true, beyond.index() as f64);
+            constants.by_position = guard.position;
+            constants.by_velocity = guard.velocity;
+            constants.level = guard.level;
         }
         if !guarded {
             constants.level = f64::INFINITY;
