@@ -49,6 +49,7 @@ pub use power_law::PowerLaw;
 pub use scan_nodes::ScanNode;
 pub(crate) use scan_nodes::ScanWindow;
 pub(crate) use series::derivative;
+pub use taylor_polynomials::RECIPROCALS;
 pub(crate) use taylor_polynomials::{DEGREE, TaylorPolynomials, value, value_and_rate};
 pub(crate) use taylor_step::{FinePosition, TaylorStep};
 pub(crate) use variation::{Transition, Variation};

@@ -7,7 +7,9 @@ pub use crate::budget;
 pub use crate::error_message::{did_you_mean, plain_number, rpm_value_hint};
 pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chain_rule_product};
-pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw};
+pub use crate::flow::{
+    ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw, RECIPROCALS,
+};
 pub use crate::integrator::{
     Evaluations, MAX_RESTITUTION, Motion, PhaseTracker, WorkShares, work, work_shares,
 };

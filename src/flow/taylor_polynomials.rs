@@ -16,7 +16,7 @@ pub(crate) struct TaylorPolynomials {
 }
 
 /// The reciprocals 1/n of whole numbers, as Taylor recurrences divide by them.
-pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
+pub const RECIPROCALS: [f64; DEGREE + 3] = {
     let mut table = [0.0; DEGREE + 3];
     let mut n = 1;
     while n < table.len() {

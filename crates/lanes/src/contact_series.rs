@@ -15,19 +15,10 @@ use super::contact_state::ContactState;
 use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
 use super::local_taylor::value_and_rate;
+use softstop::internals::RECIPROCALS;
 
 /// Degree of the power series of a contact in the regularised time sigma; odd.
 pub(super) const DEGREE: usize = 25;
-/// The reciprocals 1/n up to n = [`DEGREE`] + 1; 0 for n = 0.
-pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
-    let mut table = [0.0; DEGREE + 2];
-    let mut n = 1;
-    while n < table.len() {
-        table[n] = 1.0 / n as f64;
-        n += 1;
-    }
-    table
-};
 
 /// Most steps of Newton's method for a zero of a contact's series; then the safe engine takes the lane.
 const MAX_NEWTON_STEPS: usize = 10;
