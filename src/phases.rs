@@ -264,9 +264,20 @@ impl Phase {
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop together.
     pub fn force_derivatives(&self, position: f64, velocity: f64) -> (f64, f64) {
-        let of_hertz = |hertz: PowerLaw| hertz.force_derivatives(position, velocity);
-        let (stiffness, damping) = self.hertz.map_or((0.0, 0.0), of_hertz);
+        let (stiffness, damping) = self.hertz_derivatives(position, velocity);
         (self.law.stiffness + stiffness, self.law.damping + damping)
+    }
+
+    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of the [contact force](Self::contact_force).
+    pub fn contact_derivatives(&self, position: f64, velocity: f64) -> (f64, f64) {
+        let (stiffness, damping) = self.hertz_derivatives(position, velocity);
+        let contact = &self.contact;
+        (contact.stiffness + stiffness, contact.damping + damping)
+    }
+
+    fn hertz_derivatives(&self, position: f64, velocity: f64) -> (f64, f64) {
+        let of_hertz = |hertz: PowerLaw| hertz.force_derivatives(position, velocity);
+        self.hertz.map_or((0.0, 0.0), of_hertz)
     }
 
     /// The position without the rounding that would put it beyond a surface that ends the phase.

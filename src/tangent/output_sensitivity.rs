@@ -279,13 +279,10 @@ impl OutputSensitivityRecorder<'_> {
         let forcing = mass * arc.course.forcing_at(time) - phase.law.force;
         let acceleration =
             (forcing - stiffness * x - damping * v - phase.contact_force(x, v)) / mass;
-        let (all, damped) = phase.force_derivatives(x, v);
-        let change = |position: f64, velocity: f64| {
-            (all - stiffness) * position + (damped - damping) * velocity
-        };
+        let (by_x, by_v) = phase.contact_derivatives(x, v);
         (
-            arc.side * change(position, velocity),
-            arc.side * change(v, acceleration),
+            arc.side * (by_x * position + by_v * velocity),
+            arc.side * (by_x * v + by_v * acceleration),
         )
     }
 

@@ -98,7 +98,7 @@ impl<'a> FigureRecorder<'a> {
         if known.is_some_and(|known| known.value >= value) {
             return;
         }
-        let (stiffness, damping) = contact_force_derivatives(self.phases, phase, x, v);
+        let (stiffness, damping) = phase.contact_derivatives(x, v);
         let missing = || vec![Vector3::repeat(f64::NAN); 2 + self.by.len()];
         let columns = columns(self).unwrap_or_else(missing);
         let parts = columns.iter().enumerate().map(|(index, column)| {
@@ -121,18 +121,6 @@ impl<'a> FigureRecorder<'a> {
     fn sensitivity_columns(&self) -> Option<Vec<Vector3<f64>>> {
         self.sensitivity.columns().map(<[_]>::to_vec)
     }
-}
-
-/// d(contact force)/d(position) in N/m and d(contact force)/d(velocity) in N s/m.
-pub(super) fn contact_force_derivatives(
-    phases: &Phases,
-    phase: &Phase,
-    x: f64,
-    v: f64,
-) -> (f64, f64) {
-    let (stiffness, damping) = phase.force_derivatives(x, v);
-    let free = &phases[PhaseId::FREE].law;
-    (stiffness - free.stiffness, damping - free.damping)
 }
 
 impl Observer for FigureRecorder<'_> {
@@ -215,7 +203,6 @@ pub(super) fn contact_force_peaks<'a>(
     arc: &'a Arc<'_>,
     elapsed: f64,
 ) -> impl Iterator<Item = (f64, [f64; 3])> + 'a {
-    let free = &phases[PhaseId::FREE].law;
     let state = move |time: f64| {
         let at = arc.at(time);
         let forcing = phases.amplitude * arc.drive(time).cos;
@@ -224,8 +211,8 @@ pub(super) fn contact_force_peaks<'a>(
     };
     let rate = move |time: f64| {
         let [x, v, a] = state(time);
-        let (stiffness, damping) = phase.force_derivatives(x, v);
-        phase.side * ((stiffness - free.stiffness) * v + (damping - free.damping) * a)
+        let (stiffness, damping) = phase.contact_derivatives(x, v);
+        phase.side * (stiffness * v + damping * a)
     };
     let (each, least, most) = PEAK_PIECES;
     let fastest = phase.flow.modes.fastest_rate().max(phases.frequency);
