@@ -101,9 +101,7 @@ impl<'a> ParameterSensitivity<'a> {
 
     /// Derivatives of position and restitution of the surface that is crossed, by each column.
     fn surface_derivatives(&self, crossing: &Crossing) -> Vec<(f64, f64)> {
-        let mut surfaces = self.phases.surfaces.iter();
-        let found = surfaces.position(|surface| surface.position == crossing.position);
-        let change = |by: &PhaseDerivatives| found.map_or((0.0, 0.0), |index| by.surfaces[index]);
+        let change = |by: &PhaseDerivatives| by.surface_derivatives(self.phases, crossing.position);
         let starts = [(0.0, 0.0); 2].into_iter();
         starts.chain(self.by.iter().map(change)).collect()
     }

@@ -107,13 +107,11 @@ impl PhaseDerivatives {
         })
     }
 
-    /// Derivative by the parameter of the position in m of the surface between phases that lies at a position.
-    pub fn surface_derivative(&self, phases: &Phases, position: f64) -> f64 {
-        let at = phases
-            .surfaces
-            .iter()
-            .position(|surface| surface.position == position);
-        at.map_or(0.0, |index| self.surfaces[index].0)
+    /// Derivatives by the parameter of position in m and restitution of the surface between phases that lies at a position.
+    pub fn surface_derivatives(&self, phases: &Phases, position: f64) -> (f64, f64) {
+        let mut surfaces = phases.surfaces.iter();
+        let found = surfaces.position(|surface| surface.position == position);
+        found.map_or((0.0, 0.0), |index| self.surfaces[index])
     }
 
     /// Derivative of the contact force in N at a state of a phase.

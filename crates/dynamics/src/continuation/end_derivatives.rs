@@ -42,7 +42,7 @@ pub(crate) fn end_derivatives_by(
         let faster = by.frequency * Vector2::new(0.0, trajectory.end.velocity)
             - by.frequency * start.y * from_velocity.xy();
         let moved = match at_surface {
-            true => by.surface_derivative(scene.phases(), start.x),
+            true => by.surface_derivatives(scene.phases(), start.x).0,
             false => 0.0,
         };
         (forced.xy() + faster + moved * from_position.xy(), moved)
