@@ -32,6 +32,8 @@ mod run;
 mod scales;
 mod tally;
 
+use softstop::{Clock, Ratios, Start};
+
 /// Seeds that every run of the tests checks.
 const SEEDS: u64 = 4000;
 /// Failures that are shown in full.
@@ -97,5 +99,29 @@ fn lies_are_seen() {
         let (told, seen) = doctor::told_and_seen(lie, 800);
         println!("{lie:?}: {seen} of {told} seen");
         assert!(told > 30 && seen == told, "{lie:?}: {seen} of {told}");
+    }
+}
+
+/// The impact-less steady motion grazes exactly where its amplitude equals the clearance.
+#[test]
+fn grazing_is_told_from_a_near_miss() {
+    for frequency in [0.7f64, 0.952_651_56, 1.044_44, 1.3, 2.2] {
+        let amplitude = 1.0 / (1.0 - frequency * frequency).hypot(0.04 * frequency);
+        for (relative, expected) in [(1e-12, 1), (-1e-12, 0), (1e-14, 1), (-1e-14, 0)] {
+            let clearance = amplitude * (1.0 - relative);
+            let scene = Ratios {
+                frequency,
+                clearance,
+                ..Ratios::unloaded()
+            }
+            .scene()
+            .expect("ok");
+            let lag = (0.04 * frequency).atan2(1.0 - frequency * frequency);
+            let start = Start::new(amplitude * lag.cos(), amplitude * frequency * lag.sin());
+            let end = Clock::new(frequency, 0.0).instant(0.99 * scene.period());
+            let trajectory = scene.trajectory_until(start, end).expect("bounded");
+            let touches = trajectory.impacts().count();
+            assert_eq!(touches, expected, "eta {frequency}, overlap {relative:e}");
+        }
     }
 }

@@ -13,7 +13,6 @@ mod long_runs;
 mod machine;
 mod machine_files;
 mod machine_refusals;
-mod no_event_missed;
 mod rates;
 mod sensitivities;
 mod snapshots;
