@@ -19,7 +19,7 @@ use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{
     Branch, BranchLimits, BranchPoint, Continuation, ParameterFamily, StroboscopicMap,
 };
-use softstop_testing::reference::{FOLDS, MACHINE, list, number};
+use softstop_testing::reference::{MACHINE, list, number};
 use softstop_testing::tangent::differences;
 use softstop_testing::{assert_near, is_near, kelvin_voigt, loaded};
 
