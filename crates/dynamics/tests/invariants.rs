@@ -69,28 +69,6 @@ fn energy_balances_in_a_running_machine_that_is_pushed_and_tuned() {
     }
 }
 
-/// A mass pressed onto a preloaded stop with less than its preload bounces ever lower and comes to
-/// rest on it, after a bounded number of crossings.
-#[test]
-fn endless_bounces_end_in_rest() {
-    let mut scene = Ratios {
-        clearance: 1.0,
-        ..Ratios::unloaded()
-    }
-    .scene()
-    .expect("valid");
-    scene.excitation.amplitude = 0.2;
-    scene.contact_damping = 4.0;
-    let mut machine = Simulation::new(&scene, Start::new(0.0, 0.0)).expect("valid");
-    machine.set_force(&[20.0, 0.0]).expect("finite");
-    machine.advance(60.0).expect("bounded");
-    let sample = machine.sample();
-    assert_eq!(sample.phase, PhaseKind::Resting);
-    assert_eq!((sample.position, sample.velocity), (1.0, 0.0));
-    assert_near(sample.contact_force, 19.0, 0.2);
-    assert!(machine.impact_count() < 2_000_000);
-}
-
 /// A creeping contact costs no more evaluations than an ordinary one, whatever its damping: the
 /// impact is found and the creep follows (x - r) b / (stiffness) in closed form.
 #[test]
