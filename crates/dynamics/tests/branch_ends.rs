@@ -5,17 +5,15 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
+use crate::branches;
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use softstop::{Parameter, Scene, Stop};
 use softstop_dynamics::continuation::{BranchEnd, SpecialKind};
 use softstop_dynamics::orbit::{OrbitError, find};
-use softstop_dynamics::{
-    Branch, BranchLimits, BranchPoint, Continuation, Orbit, ParameterFamily, StroboscopicMap,
-};
+use softstop_dynamics::{Branch, BranchPoint, Orbit, ParameterFamily, StroboscopicMap};
 use softstop_testing::machines::machines;
 use softstop_testing::random;
 
@@ -55,12 +53,8 @@ fn branch(scene: &Scene, orbit: &Orbit, along: Parameter) -> Result<Branch, Orbi
         Parameter::Frequency => (0.5 * value, 2.0 * value),
         _ => (value - 3.0, value + 3.0),
     };
-    let limits = BranchLimits {
-        range,
-        points: POINTS,
-    };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    Continuation::new(&family, orbit.periods).branch(value, orbit.state(), &limits, go_on)
+    let from = (value, orbit.state());
+    branches::follow(&family, orbit.periods, from, range, POINTS)
 }
 
 /// The determinant below which an orbit comes to rest: how many of its bounces are told one by one is the simulation's choice.

@@ -6,9 +6,7 @@ mod curves;
 mod doubling;
 pub(crate) mod outgrown;
 
-use softstop_testing::tolerance::{DIFFERENCED, GROWN, MOTION, SOLVED, printed};
-use std::ops::ControlFlow;
-
+use crate::branches::{self, go_on};
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Release, Scene, Start};
 use softstop_dynamics::continuation::{
@@ -21,6 +19,7 @@ use softstop_dynamics::{
 };
 use softstop_testing::reference::{MACHINE, list, number};
 use softstop_testing::tangent::differences;
+use softstop_testing::tolerance::{DIFFERENCED, GROWN, MOTION, SOLVED, printed};
 use softstop_testing::{assert_near, is_near, kelvin_voigt, loaded};
 
 type Frequencies = ParameterFamily<1>;
@@ -39,21 +38,17 @@ fn branch(eta: f64, n: u64, state: (f64, f64), range: (f64, f64)) -> Branch {
 
 /// The branch of a family from a frequency and a state on.
 fn follow(family: &Frequencies, n: u64, from: (f64, Vector2<f64>), range: (f64, f64)) -> Branch {
-    let limits = BranchLimits { range, points: 500 };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(family, n).branch(from.0, from.1, &limits, go_on);
-    branch.expect("a branch")
+    branches::follow(family, n, from, range, 500).expect("a branch")
 }
 
 /// The branch of twice the period from a flip on, over the frequencies about it.
-fn double(family: &Frequencies, n: u64, flip: &BranchPoint) -> Branch {
+fn double(family: &impl Family<1>, n: u64, flip: &BranchPoint) -> Branch {
     double_within(family, n, flip, (0.9, 1.1))
 }
 
 /// That over some frequencies.
-fn double_within(family: &Frequencies, n: u64, flip: &BranchPoint, range: (f64, f64)) -> Branch {
+fn double_within(family: &dyn Family, n: u64, flip: &BranchPoint, range: (f64, f64)) -> Branch {
     let limits = BranchLimits { range, points: 500 };
-    let go_on = |_: &_| ControlFlow::Continue(());
     let doubled = Continuation::new(family, n).double_period(flip, &limits, go_on);
     doubled.expect("a branch of twice the period")
 }
@@ -68,11 +63,8 @@ fn a_branch_from_a_tiny_value_of_the_parameter_is_that_from_a_usual_one() {
         scene.excitation.amplitude = amplitude;
         let settled = scene.trajectory(Start::REST, 400).expect("a motion").end;
         let family = ParameterFamily::new(scene, [Parameter::Amplitude]).expect("a parameter");
-        let (range, points) = ((amplitude, 1.3), 4000);
-        let limits = BranchLimits { range, points };
-        let go_on = |_: &_| ControlFlow::Continue(());
-        let branch =
-            Continuation::new(&family, 1).branch(amplitude, settled.into(), &limits, go_on);
+        let range = (amplitude, 1.3);
+        let branch = branches::follow(&family, 1, (amplitude, settled), range, 4000);
         let branch = branch.expect("a branch");
         assert!(
             matches!(branch.ends.1, BranchEnd::Range),
@@ -381,7 +373,6 @@ fn settings_change_the_points_of_a_branch_but_not_what_is_found_on_it() {
             largest_step,
             ..ContinuationSettings::default()
         };
-        let go_on = |_: &_| ControlFlow::Continue(());
         with(settings)
             .expect("valid")
             .branch(start.parameter, start.state(), &limits, go_on)

@@ -1,16 +1,13 @@
 //! Branches on which the state at drive angle phi comes to lie on a surface, against the same branches seen at other
 //! drive angles: where the section lies has no part in what an orbit is.
 
-use softstop_testing::tolerance::SOLVED;
-use std::ops::ControlFlow;
-
+use crate::branches;
 use softstop::{Machine, Parameter, Ratios, Scene, Stop};
 use softstop_dynamics::continuation::{BranchEnd, TestFunction};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::{
-    Branch, BranchLimits, BranchPoint, Continuation, Orbit, ParameterFamily, StroboscopicMap,
-};
+use softstop_dynamics::{Branch, BranchPoint, Orbit, ParameterFamily, StroboscopicMap};
 use softstop_testing::is_near;
+use softstop_testing::tolerance::SOLVED;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -25,12 +22,13 @@ fn branch(
     let orbit: Orbit = find(&scene)?;
     let eta = scene.excitation.frequency;
     let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
-    let limits = BranchLimits {
+    Ok(branches::follow(
+        &family,
+        1,
+        (eta, orbit.state()),
         range,
-        points: 2000,
-    };
-    let continuation = Continuation::new(&family, 1);
-    Ok(continuation.branch(eta, orbit.state(), &limits, |_| ControlFlow::Continue(()))?)
+        2000,
+    )?)
 }
 
 /// Symbols and frequencies of all special points.
@@ -148,12 +146,7 @@ fn a_fold_at_a_touch_is_told_from_one_that_multipliers_pass() -> Outcome {
     let scene = Machine::from_toml(file)?.scene;
     let state = find(&scene)?.state();
     let family = ParameterFamily::new(scene, [Parameter::Amplitude])?;
-    let limits = BranchLimits {
-        range: (0.01, 3.0),
-        points: 2000,
-    };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, 1).branch(1.0, state, &limits, go_on)?;
+    let branch = branches::follow(&family, 1, (1.0, state), (0.01, 3.0), 2000)?;
     let touch = 0.21f64.hypot(0.11);
     let folds = branch.critical_points(TestFunction::Fold);
     let folds = folds.map(|fold| {

@@ -1,14 +1,13 @@
 //! What the orbits of a branch cross, counted on their motions: each change of it is a grazing that the branch tells.
 
-use std::ops::ControlFlow;
-
+use crate::branches;
 use nalgebra::Vector2;
 use softstop::internals::turning_points;
 use softstop::{
     Below, CheckedScene, CrossingKind, Machine, Parameter, Release, Scene, Start, Stop,
 };
 use softstop_dynamics::continuation::{BranchEnd, SpecialKind, SwitchingSurface};
-use softstop_dynamics::{Branch, BranchLimits, BranchPoint, Continuation, ParameterFamily};
+use softstop_dynamics::{Branch, BranchPoint, ParameterFamily};
 use softstop_testing::scenes::{hertz, kelvin_voigt, piercing, preloaded, rigid_stop, slope};
 
 /// Kinetic energy at a crossing, or distance of a turning point from a face, in units of the machines, which have them about 1,
@@ -111,12 +110,8 @@ fn follow(scene: Scene, parameter: Parameter, periods: u64) {
     let machine = Machine::from(scene);
     let own = machine.value(parameter).expect("a value");
     let family = ParameterFamily::new(machine.clone(), [parameter]).expect("a family");
-    let limits = BranchLimits {
-        range: (0.85 * own, 1.3 * own),
-        points: 1500,
-    };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, periods).branch(own, settled.into(), &limits, go_on);
+    let range = (0.85 * own, 1.3 * own);
+    let branch = branches::follow(&family, periods, (own, settled), range, 1500);
     let branch = branch.expect("a branch");
     assert_eq!(branch.periods, periods);
     for end in [&branch.ends.0, &branch.ends.1] {

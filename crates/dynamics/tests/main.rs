@@ -3,6 +3,7 @@
 mod attractors;
 mod basin;
 mod branch_ends;
+mod branches;
 mod continuation;
 mod corners;
 mod crossings;

@@ -7,14 +7,13 @@
 //! orbit that touches with v is that of grazing less v^2 / (2 a) + 2 P v M12 / (a (1 - tr M + det M)): the depth, and by how much
 //! the impulse moves the fixed point.
 
-use std::ops::ControlFlow;
-
+use crate::branches;
 use nalgebra::Vector2;
 use softstop::internals::turning_points;
 use softstop::{Below, CheckedScene, Parameter, Scene, Start, Stop};
 use softstop_dynamics::continuation::BranchEnd;
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::{Branch, BranchLimits, Continuation, ParameterFamily, StroboscopicMap};
+use softstop_dynamics::{Branch, ParameterFamily, StroboscopicMap};
 use softstop_testing::assert_near;
 use softstop_testing::scenes::preloaded;
 use softstop_testing::tolerance::ROUNDING;
@@ -23,13 +22,7 @@ use softstop_testing::tolerance::ROUNDING;
 fn branch(scene: &Scene, along: Parameter, state: Vector2<f64>, range: (f64, f64)) -> Branch {
     let from = along.get(scene).expect("it has one");
     let family = ParameterFamily::new(scene.clone(), [along]).expect("a family");
-    let limits = BranchLimits {
-        range,
-        points: 4000,
-    };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, 1).branch(from, state, &limits, go_on);
-    branch.expect("a branch")
+    branches::follow(&family, 1, (from, state), range, 4000).expect("a branch")
 }
 
 /// Where in its period the mass is lowest, in s, and its position there.

@@ -1,11 +1,10 @@
 //! Normals of the borders of z = 1, against the borders of machines beside.
 
-use std::ops::ControlFlow;
-
+use crate::branches;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{SpecialKind, SwitchingSurface, TestFunction};
 use softstop_dynamics::derivatives::{Border, BorderKind};
-use softstop_dynamics::{BranchLimits, Continuation, ParameterFamily, orbit, zone};
+use softstop_dynamics::{ParameterFamily, orbit, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, rigid_stop};
 
@@ -70,16 +69,9 @@ fn borders(scene: &Scene) -> Vec<Border> {
         .filter(|parameter| parameter.get(scene).is_some())
         .collect();
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("valid");
-    let limits = BranchLimits {
-        range: (0.8, 1.6),
-        points: 2000,
-    };
     let state = orbit::find(scene).expect("an orbit").state();
-    let branch = Continuation::new(&family, 1)
-        .branch(scene.excitation.frequency, state, &limits, |_| {
-            ControlFlow::Continue(())
-        })
-        .expect("a branch");
+    let from = (scene.excitation.frequency, state);
+    let branch = branches::follow(&family, 1, from, (0.8, 1.6), 2000).expect("a branch");
     let specials = branch.specials.iter();
     specials
         .map(|it| Border::at_special(scene, 1, (it.kind, &it.point), &parameters).expect("smooth"))

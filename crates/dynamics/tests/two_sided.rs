@@ -3,8 +3,8 @@
 mod grazing;
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
+use crate::branches::{self, go_on};
 use crate::continuation::outgrown::Outgrown;
 use nalgebra::{Complex, Matrix2, Vector2};
 use softstop::{Below, Parameter, Release, Scene, Start, Stop};
@@ -155,15 +155,7 @@ fn a_branch_keeps_to_the_closed_form() {
     let exact = Symmetric::of(&scene, true);
     let (scene, state) = exact.begin(&scene);
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
-    let limits = BranchLimits {
-        range: (1.6, 2.2),
-        points: 500,
-    };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let continuation = Continuation::new(&family, 1);
-    let branch = continuation
-        .branch(1.8, state, &limits, go_on)
-        .expect("a branch");
+    let branch = branches::follow(&family, 1, (1.8, state), (1.6, 2.2), 500).expect("a branch");
     let both = branch
         .points
         .iter()
@@ -208,7 +200,6 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
         let family =
             ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
         let limits = BranchLimits { range, points: 500 };
-        let go_on = |_: &_| ControlFlow::Continue(());
         let continuation = Continuation::new(&family, 1)
             .with_steps(0.05)
             .expect("valid");
@@ -272,7 +263,6 @@ fn asymmetric_branches_do_not_depend_on_the_drive_angle() {
         range: (1.2, 2.0),
         points: 500,
     };
-    let go_on = |_: &_| ControlFlow::Continue(());
     let ends = (0..16).map(|index| {
         let mut scene = scene.clone();
         scene.excitation.phase = f64::from(index) * std::f64::consts::TAU / 16.0;

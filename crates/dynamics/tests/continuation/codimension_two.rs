@@ -5,6 +5,7 @@ use super::*;
 use softstop::{Machine, Release, Stop};
 use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 use softstop_dynamics::continuation::{CodimensionTwo, switch_curves};
+use softstop_dynamics::monitor::unmonitored;
 
 /// A machine with m = k = F0 = 1 before a stop, at 0.95 of the clearance that the motion without impacts reaches.
 fn beside_grazing(frequency: f64, damping: f64, stop: &str) -> Scene {
@@ -26,23 +27,16 @@ const STOPS: [&str; 2] = [
 
 /// The special points of z = 1 over the clearance, from its stable motion.
 fn over_the_clearance(scene: &Scene) -> Branch {
-    let found = find_attractors(scene, &SearchOptions::default(), &|_, _| {
-        ControlFlow::Continue(())
-    });
+    let found = find_attractors(scene, &SearchOptions::default(), &unmonitored);
     let found = found.expect("attractors").attractors;
     let orbit = found.into_iter().find_map(|it| {
         let regime = it.motion.regime()?;
         (regime.impacts == 1 && regime.periods == 1).then_some(it.orbit?)
     });
     let family = ParameterFamily::new(scene.clone(), [Parameter::Clearance]).expect("a family");
-    let limits = BranchLimits {
-        range: (0.6 * scene.clearance, 1.3 * scene.clearance),
-        points: 2000,
-    };
-    let state = orbit.expect("z = 1").state();
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, 1).branch(scene.clearance, state, &limits, go_on);
-    branch.expect("a branch")
+    let from = (scene.clearance, orbit.expect("z = 1").state());
+    let range = (0.6 * scene.clearance, 1.3 * scene.clearance);
+    branches::follow(&family, 1, from, range, 2000).expect("a branch")
 }
 
 /// Grazing is resonant where the free motion comes back in half its own periods, at `2 omega_d / n` (Simpson and Ghosh,
@@ -208,12 +202,7 @@ fn folds_of_a_soft_stop_meet_in_a_cusp() {
         scene.excitation.frequency = 1.0;
         let orbit = softstop_dynamics::orbit::find(&scene).expect("z = 1");
         let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
-        let limits = BranchLimits {
-            range: (0.8, 2.5),
-            points: 4000,
-        };
-        let go_on = |_: &_| ControlFlow::Continue(());
-        let branch = Continuation::new(&family, 1).branch(1.0, orbit.state(), &limits, go_on);
+        let branch = branches::follow(&family, 1, (1.0, orbit.state()), (0.8, 2.5), 4000);
         of_kind(&branch.expect("a branch"), "SN")
     };
     let fold = folds(0.5).remove(0);
@@ -249,7 +238,6 @@ fn curves_begin_in_points_of_codimension_two() {
         points: 500,
         settings: ContinuationSettings::of_curves(0.02),
     };
-    let go_on = |_: &_| ControlFlow::Continue(());
     let flips = followed(&flip, 1, &family, 10.0, ranges);
     let places = flips.specials.iter().map(|it| it.1.parameters);
     let [resonant, generalised] = places.collect::<Vec<_>>()[..] else {
@@ -300,9 +288,8 @@ fn curves_begin_in_points_of_codimension_two() {
             points: 500,
         };
         // Near grazing the doubled orbits are too steep to begin at.
-        let Ok(doubled) = continuation.double_period(&flip.expect("an orbit"), &limits, |_| {
-            ControlFlow::Continue(())
-        }) else {
+        let Ok(doubled) = continuation.double_period(&flip.expect("an orbit"), &limits, go_on)
+        else {
             continue;
         };
         for fold in of_kind(&doubled, "SN") {

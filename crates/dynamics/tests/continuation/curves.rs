@@ -38,7 +38,7 @@ fn followed_by_steps(
         (special.kind, special.point.state()),
         start,
         &region,
-        |_| ControlFlow::Continue(()),
+        go_on,
     )
     .expect("a curve")
 }

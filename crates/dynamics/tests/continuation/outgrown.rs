@@ -55,14 +55,7 @@ fn unknowns_of_parameters_are_taken_back() {
 fn a_doubled_branch_is_that_of_usual_scales() {
     let flip = of_kind(&all_of_z1(), "PD").remove(0).point;
     let usual = double(&frequencies(1.15), 1, &flip);
-    let limits = BranchLimits {
-        range: (0.9, 1.1),
-        points: 500,
-    };
-    let family = Outgrown(frequencies(1.15));
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let found = Continuation::new(&family, 1).double_period(&flip, &limits, go_on);
-    let found = found.expect("a branch of twice the period");
+    let found = double(&Outgrown(frequencies(1.15)), 1, &flip);
     assert_eq!(symbols(&found), symbols(&usual));
     for (found, usual) in found.specials.iter().zip(&usual.specials) {
         assert_near(found.point.parameter, usual.point.parameter, SOLVED);
@@ -98,14 +91,9 @@ fn curves_are_those_of_usual_scales() {
 #[test]
 fn steps_shrink_with_the_parameter() {
     let family = Outgrown(frequencies(0.9));
-    let limits = BranchLimits {
-        range: (0.01, 0.91),
-        points: 2000,
-    };
     let rest = frequencies(0.9).scene([0.9]).expect("a scene");
     let settled = rest.trajectory(Start::REST, 400).expect("a motion").end;
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, 1).branch(0.9, settled.into(), &limits, go_on);
+    let branch = branches::follow(&family, 1, (0.9, settled), (0.01, 0.91), 2000);
     let branch = branch.expect("a branch");
     assert!(
         matches!(branch.ends.0, BranchEnd::Range),

@@ -14,18 +14,8 @@ fn branch(scene: &Scene, range: (f64, f64)) -> Branch {
     let settled = scene.trajectory(Start::new(0.0, 1.0), 400);
     let state = settled.expect("a motion").end;
     let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
-    let limits = BranchLimits {
-        range,
-        points: 4000,
-    };
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, 1).branch(
-        scene.excitation.frequency,
-        state.into(),
-        &limits,
-        go_on,
-    );
-    branch.expect("a branch")
+    let from = (scene.excitation.frequency, state);
+    branches::follow(&family, 1, from, range, 4000).expect("a branch")
 }
 
 /// The grazings of both stops on a branch.
@@ -106,12 +96,7 @@ fn touches_of_stops_that_are_nearly_alike_are_told_apart() {
         let settled = scene.trajectory(Start::new(0.0, 1.0), 400);
         let state = settled.expect("a motion").end;
         let family = ParameterFamily::new(scene, [Parameter::Amplitude]).expect("a parameter");
-        let limits = BranchLimits {
-            range: (0.01, 1.3),
-            points: 4000,
-        };
-        let go_on = |_: &_| ControlFlow::Continue(());
-        let branch = Continuation::new(&family, 1).branch(1.0, state.into(), &limits, go_on);
+        let branch = branches::follow(&family, 1, (1.0, state), (0.01, 1.3), 4000);
         let specials = branch.expect("a branch").specials.into_iter();
         let grazes = specials.filter_map(|special| match special.kind {
             SpecialKind::Grazing(graze) => Some((graze.surface, special.point.parameter)),
@@ -147,13 +132,8 @@ fn along_clearance(frequency: f64, stop: Stop, nearer: f64) -> (Branch, f64) {
     scene.stop = stop;
     let (start, settled) = (scene.clearance, scene.trajectory(Start::new(0.0, 1.0), 400));
     let family = ParameterFamily::new(scene, [Parameter::Clearance]).expect("a parameter");
-    let limits = BranchLimits {
-        range: (start, 1.1 * amplitude),
-        points: 4000,
-    };
-    let state = settled.expect("a motion").end.into();
-    let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Continuation::new(&family, 1).branch(start, state, &limits, go_on);
+    let (state, range) = (settled.expect("a motion").end, (start, 1.1 * amplitude));
+    let branch = branches::follow(&family, 1, (start, state), range, 4000);
     (branch.expect("a branch"), amplitude)
 }
 
@@ -263,7 +243,6 @@ fn curves_of_both_touches_stay_with_stops_that_are_alike() {
         };
         let kind = SpecialKind::Grazing(graze);
         let (orbit, from) = ((1, point.state()), [point.parameter, value]);
-        let go_on = |_: &_| ControlFlow::Continue(());
         follow_special(&family, orbit.0, (kind, orbit.1), from, &region, go_on)
     };
     let refused = curve(Parameter::Clearance, scene.clearance, (0.3, 0.8));
