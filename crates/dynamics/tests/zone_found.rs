@@ -2,7 +2,7 @@
 //! narrow.
 //!
 //! 2,000 machines, in some 40 minutes of processor time:
-//! `PROPTEST_CASES=2000 cargo test --release -p softstop-dynamics --test dynamics zone_found -- --ignored --nocapture`
+//! `PROPTEST_CASES=2000 cargo test --release -p softstop-dynamics --test dynamics zone_found -- --nocapture`
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -14,9 +14,8 @@ use softstop_testing::random::{self, log_uniform};
 use softstop_testing::tolerance::GROWN;
 use softstop_testing::with_changes;
 
-/// Machines of the test that runs every day, and of the long one unless it is said otherwise.
+/// Machines of the test that runs every day.
 const MACHINES: u32 = 20;
-const MANY: u32 = 2000;
 /// Frequencies within a stretch.
 const FREQUENCIES: u32 = 20;
 /// Machines after which progress is shown.
@@ -81,8 +80,9 @@ fn searched(scene: &mut Scene) -> (Vec<StableRange>, Vec<String>) {
     (all, denied)
 }
 
-fn assert_found(machines_count: u32) {
-    let config = random::cases(machines_count);
+#[test]
+fn what_zone_lists_orbit_finds() {
+    let config = random::cases(MACHINES);
     let count = config.cases as usize;
     let mut runner = TestRunner::new(config);
     let mut draw = || {
@@ -114,17 +114,6 @@ fn assert_found(machines_count: u32) {
         "{listed} stable_ranges, {narrow} narrow"
     );
     assert!(denied.is_empty(), "{denied:#?}");
-}
-
-#[test]
-fn what_zone_lists_orbit_finds() {
-    assert_found(MACHINES);
-}
-
-#[test]
-#[ignore = "as many as PROPTEST_CASES says; 40 minutes for 2,000"]
-fn what_zone_lists_orbit_finds_of_many() {
-    assert_found(MANY);
 }
 
 /// A stretch of a relative width of 1e-4, where no start and no lattice shows the motion: its state is known.

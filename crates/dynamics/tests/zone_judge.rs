@@ -2,7 +2,7 @@
 //!
 //! Random machines, lightly damped ones among them, run from many starts in the batch engine, at frequencies on their
 //! stretches and elsewhere. 100,000 machines, in some three hours of processor time:
-//! `PROPTEST_CASES=100000 cargo test --release -p softstop-dynamics --test dynamics zone_judge -- --ignored --nocapture`
+//! `PROPTEST_CASES=100000 cargo test --release -p softstop-dynamics --test dynamics zone_judge -- --nocapture`
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -228,9 +228,9 @@ fn frequency(all: &[StableRange], share: f64, anywhere: bool) -> f64 {
     }
 }
 
-/// The machines from a number on, drawn one after the other.
-fn assert_judged(machines_count: u32) {
-    let config = random::cases(machines_count);
+#[test]
+fn what_settles_on_z_1_lies_on_a_stretch() {
+    let config = random::cases(MACHINES);
     let count = config.cases;
     let mut runner = TestRunner::new(config);
     let shares = prop::collection::vec((0.0..1.0f64, any::<bool>()), FREQUENCIES);
@@ -263,15 +263,4 @@ fn assert_judged(machines_count: u32) {
         motions as u32 > count,
         "{motions} motions of {count} machines"
     );
-}
-
-#[test]
-fn what_settles_on_z_1_lies_on_a_stretch() {
-    assert_judged(MACHINES);
-}
-
-#[test]
-#[ignore = "as many as PROPTEST_CASES says; hours for 100,000"]
-fn what_settles_on_z_1_lies_on_a_stretch_of_many() {
-    assert_judged(MACHINES);
 }
