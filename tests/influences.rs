@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
 use softstop::{Below, Clock, CrossingKind, Parameter, Scene, Start, Stop};
+use softstop_testing::tangent::differences_of;
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{Meets, cases, machines, start_below};
 
@@ -41,7 +42,7 @@ fn exact(scene: &Scene, start: Start, periods: u64, parameter: Parameter) -> Opt
     Some(change)
 }
 
-/// Differences of the sixth order, with an estimate of their error; none where the motion meets something else beside.
+/// Differences, with an estimate of their error; none where the motion meets something else beside.
 fn differences(
     scene: &Scene,
     start: Start,
@@ -55,17 +56,11 @@ fn differences(
         let mut scene = scene.clone();
         parameter.set(&mut scene, value + shift);
         let (end, others) = after(&scene, start, periods)?;
-        (others == kinds).then_some(end)
+        (others == kinds).then(|| end.as_slice().to_vec())
     };
-    let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
-    let (far, wide, narrow) = (
-        central(3.0 * width)?,
-        central(2.0 * width)?,
-        central(width)?,
-    );
-    let fourth = (4.0 * narrow - wide) / 3.0;
-    let sixth = 1.5 * narrow - 0.6 * wide + 0.1 * far;
-    Some((sixth, (sixth - fourth).norm()))
+    let found = differences_of(beside, width)?;
+    let error = Vector3::from_fn(|index, _| found[index].1).norm();
+    Some((Vector3::from_fn(|index, _| found[index].0), error))
 }
 
 /// With some dissipation a stop may cease to press, without any it may not; the other stop has some.

@@ -6,6 +6,7 @@ use softstop::{Clock, Parameter, Ratios, Scene, Start, Stop};
 use softstop_dynamics::derivatives::{self, DifferentiatedFigure, OrbitDerivatives};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{Orbit, zone};
+use softstop_testing::tangent::differences_of;
 use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
 use softstop_testing::{Meets, assert_near, cases, hertz, machines};
 
@@ -87,14 +88,8 @@ proptest! {
             prop_assert!((slopes.max_position.value - orbit.max_position).abs() < SOLVED * (1.0 + orbit.max_position.abs()));
             let along = Vector2::new(slopes.position.by[0], slopes.velocity.by[0]);
             let width = WIDTH * parameter.get(&scene).expect("it has").abs().max(0.05);
-            let central = |width: f64| -> Option<Vec<f64>> {
-                let [high, low] = [width, -width].map(|shift| beside(&orbit, parameter, shift, along, &meets));
-                let pairs = high?.into_iter().zip(low?);
-                Some(pairs.map(|(high, low)| (high - low) / (2.0 * width)).collect())
-            };
-            let (Some(far), Some(wide), Some(narrow)) = (central(3.0 * width), central(2.0 * width), central(width)) else {
-                continue
-            };
+            let beside = |shift: f64| beside(&orbit, parameter, shift, along, &meets);
+            let Some(differences) = differences_of(beside, width) else { continue };
             let Ok(stability) = derivatives::differentiate_stability(&orbit, &[parameter]) else {
                 continue;
             };
@@ -102,12 +97,10 @@ proptest! {
             let exact = figures(&slopes).chain(invariants).map(|figure| figure.by[0]);
             let exact: Vec<f64> = exact.collect();
             let size: f64 = 1.0 + exact.iter().map(|part| part.abs()).fold(0.0, f64::max);
-            for (index, exact) in exact.iter().enumerate() {
-                let fourth = (4.0 * narrow[index] - wide[index]) / 3.0;
-                let sixth = 1.5 * narrow[index] - 0.6 * wide[index] + 0.1 * far[index];
-                let (off, error) = ((sixth - exact).abs() / size, (sixth - fourth).abs() / size);
+            for (index, (exact, (found, error))) in exact.iter().zip(differences).enumerate() {
+                let (off, error) = ((found - exact).abs() / size, error / size);
                 if error < 1e-4 {
-                    prop_assert!(off <= DIFFERENCED + error, "{parameter:?} {index}: {sixth} {exact} {error:e} {:?}", meets.crossings);
+                    prop_assert!(off <= DIFFERENCED + error, "{parameter:?} {index}: {found} {exact} {error:e} {:?}", meets.crossings);
                 }
             }
         }

@@ -5,6 +5,7 @@ use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{SpecialKind, SwitchingSurface, TestFunction};
 use softstop_dynamics::derivatives::{Border, BorderKind};
 use softstop_dynamics::{ParameterFamily, orbit, zone};
+use softstop_testing::tangent::differences_of;
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, rigid_stop};
 
@@ -42,19 +43,14 @@ fn normals_are_those_of_zones_computed_anew() {
                 let mut scene = scene.clone();
                 parameter.set(&mut scene, value + shift);
                 let zone = of(&scene);
-                [zone.high.frequency, zone.frequency_g0]
+                Some(vec![zone.high.frequency, zone.frequency_g0])
             };
-            let [ahead, behind, farther, back] =
-                [1.0, -1.0, 2.0, -2.0].map(|shift| frequencies(shift * width));
-            for (which, border) in [&fold, &free].into_iter().enumerate() {
-                let [narrow, wide] = [
-                    (ahead[which] - behind[which]) / (2.0 * width),
-                    (farther[which] - back[which]) / (4.0 * width),
-                ];
-                let found = (4.0 * narrow - wide) / 3.0;
+            let found = differences_of(frequencies, width).expect("zones");
+            for ((found, _), border) in found.into_iter().zip([&fold, &free]) {
                 assert!(
                     (found + border.normal[index]).abs() < DIFFERENCED * (1.0 + found.abs()),
-                    "{parameter:?} {which}: {found} {}",
+                    "{parameter:?} of {:?}: {found} {}",
+                    border.kind,
                     border.normal[index]
                 );
             }
@@ -99,11 +95,12 @@ fn normals_are_those_of_borders_found_again() {
             let width = 1e-4 * value.abs().max(0.05);
             let frequency = |shift: f64| {
                 let mut scene = border.scene.clone();
-                parameter.set(&mut scene, value + shift * width);
-                border.find_again(&scene).expect("is there").frequency()
+                parameter.set(&mut scene, value + shift);
+                Some(vec![
+                    border.find_again(&scene).expect("is there").frequency(),
+                ])
             };
-            let central = |by: f64| (frequency(by) - frequency(-by)) / (2.0 * by * width);
-            let found = (4.0 * central(1.0) - central(2.0)) / 3.0;
+            let found = differences_of(frequency, width).expect("is there")[0].0;
             let size = 1.0 + found.abs();
             assert_near(-found, *normal, 0.01 * DIFFERENCED * size);
         }

@@ -10,6 +10,7 @@ use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::derivatives::{self, Border};
 use softstop_dynamics::nalgebra::Vector2;
 use softstop_dynamics::{Orbit, zone};
+use softstop_testing::tangent::differences_of;
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{cases, rigid_stop, units};
 
@@ -63,35 +64,25 @@ fn figures(
     Some(figures.to_vec())
 }
 
-/// Differences of some numbers in units of themselves and of a parameter, of the sixth order, with the error that they
-/// claim.
+/// Differences of some numbers in units of themselves and of a parameter, with the error that they claim.
 fn differences(
     value: f64,
     sizes: &[f64],
     at: impl Fn(f64) -> Option<Vec<f64>>,
 ) -> Option<Vec<(f64, f64)>> {
-    let over = |share: f64| -> Option<Vec<(f64, f64)>> {
-        let central = |by: f64| -> Option<Vec<f64>> {
-            let [high, low] = [by, -by].map(|by| at(by * share * value));
-            let pairs = high?.into_iter().zip(low?).zip(sizes);
-            Some(
-                pairs
-                    .map(|((a, b), size)| (a - b) / (2.0 * by * share * size))
-                    .collect(),
-            )
-        };
-        let [narrow, wide, far] = [central(1.0)?, central(2.0)?, central(3.0)?];
-        let each = narrow.iter().zip(&wide).zip(&far);
-        let best = each.map(|((narrow, wide), far)| {
-            let fourth = (4.0 * narrow - wide) / 3.0;
-            let sixth = 1.5 * narrow - 0.6 * wide + 0.1 * far;
-            (sixth, (sixth - fourth).abs())
-        });
-        Some(best.collect())
+    let scaled = |share: f64| {
+        let found = at(share * value)?;
+        Some(
+            found
+                .iter()
+                .zip(sizes)
+                .map(|(it, size)| it / size)
+                .collect(),
+        )
     };
-    let found: Vec<_> = WIDTHS.into_iter().filter_map(over).collect();
+    let found = WIDTHS.map(|width| differences_of(scaled, width));
     let better = |a: (f64, f64), b: (f64, f64)| if a.1 < b.1 { a } else { b };
-    found.into_iter().reduce(|a, b| {
+    found.into_iter().flatten().reduce(|a, b| {
         let pairs = a.into_iter().zip(b);
         pairs.map(|(a, b)| better(a, b)).collect()
     })
