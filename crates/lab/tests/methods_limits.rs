@@ -4,7 +4,7 @@
 mod contacts;
 mod stability;
 
-use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
+use softstop::{Excitation, Ratios, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };

@@ -139,6 +139,9 @@ mod tests {
         use Scheme::{ExplicitEuler, RungeKutta4, SemiImplicitEuler};
         assert_eq!(limit(ExplicitEuler, 0.0), 0.0);
         assert_near(limit(RungeKutta4, 0.0), 8f64.sqrt());
+        // |1 + u + u^2/2 + u^3/6 + u^4/24| = 1 with u = z (-zeta + i sqrt(1 - zeta^2)), solved to 25 digits.
+        assert_near(limit(RungeKutta4, 0.05), 2.909_799_685_490_394);
+        assert_near(limit(RungeKutta4, 0.3), 2.835_300_102_593_945);
         // The end of the stability interval on the negative real axis.
         assert_near(limit(RungeKutta4, 1.0), 2.785_293_563_405_289);
         for zeta in [0.01, 0.1, 0.5, 0.9] {
