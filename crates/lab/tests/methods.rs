@@ -97,50 +97,29 @@ fn assert_orders(name: &str, stop: Stop, contact_damping: f64, left: (f64, f64))
     }
 }
 
-const SMOOTH: f64 = f64::INFINITY;
-/// The suspension's damping, which continues in contact.
-const SAME: f64 = 0.04;
-
-fn sprung() -> Stop {
-    kelvin_voigt(50.0, Release::Clearance)
-}
-
 #[test]
-fn orders_without_a_stop() {
-    assert_orders("no stop", Stop::None, SAME, (SMOOTH, SMOOTH));
-}
-
-/// The mass is put back from where it was at the end of the step.
-#[test]
-fn orders_at_a_rigid_stop() {
-    let stop = Stop::Rigid { restitution: 0.7 };
-    assert_orders("rigid", stop, SAME, (1.0, SMOOTH));
-}
-
-/// A jump of the force within a step takes O(h) from the velocity.
-#[test]
-fn orders_at_a_preloaded_stop() {
-    let stop = preloaded(7.0, 70.0);
-    assert_orders("preloaded", stop, SAME, (1.0, SMOOTH));
-}
-
-/// The damper's force jumps at touch.
-#[test]
-fn orders_at_a_damped_stop() {
-    assert_orders("Kelvin-Voigt, damped", sprung(), 0.4, (1.0, SMOOTH));
-}
-
-/// A kink of the force within a step takes O(h^2).
-#[test]
-fn orders_at_an_undamped_spring() {
-    assert_orders("Kelvin-Voigt, undamped", sprung(), SAME, (2.0, SMOOTH));
-}
-
-/// A power law of exponent n is not smooth at its face: wherever steps end, one next to it errs by h^(n + 1).
-#[test]
-fn orders_at_a_sphere() {
-    let stop = hertz(50.0, 1.5, 0.0);
-    assert_orders("Hertz, n = 3/2", stop, SAME, (2.5, 2.5));
+fn orders_through_contacts() {
+    const SMOOTH: f64 = f64::INFINITY;
+    // The suspension's damping, which continues in contact.
+    const SAME: f64 = 0.04;
+    let sprung = kelvin_voigt(50.0, Release::Clearance);
+    let rigid = Stop::Rigid { restitution: 0.7 };
+    let sphere = hertz(50.0, 1.5, 0.0);
+    for (name, stop, damping, left) in [
+        ("no stop", Stop::None, SAME, (SMOOTH, SMOOTH)),
+        // The mass is put back from where it was at the end of the step.
+        ("rigid", rigid, SAME, (1.0, SMOOTH)),
+        // A jump of the force within a step takes O(h) from the velocity.
+        ("preloaded", preloaded(7.0, 70.0), SAME, (1.0, SMOOTH)),
+        // The damper's force jumps at touch.
+        ("Kelvin-Voigt, damped", sprung.clone(), 0.4, (1.0, SMOOTH)),
+        // A kink of the force within a step takes O(h^2).
+        ("Kelvin-Voigt, undamped", sprung, SAME, (2.0, SMOOTH)),
+        // A power law of exponent n is not smooth at its face: wherever steps end, one next to it errs by h^(n + 1).
+        ("Hertz, n = 3/2", sphere, SAME, (2.5, 2.5)),
+    ] {
+        assert_orders(name, stop, damping, left);
+    }
 }
 
 #[test]

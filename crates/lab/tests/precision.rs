@@ -7,8 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use softstop::{Impact, Scene, Start};
-use softstop_lab::methods::{Integrator, MethodError, Solution, Task, Work};
+use softstop::Impact;
+use softstop_lab::methods::{Events, FixedStep, Integrator, MethodError, Scheme, Solution, Task};
 use softstop_lab::precision::case::{self, BUILT_IN, Case};
 use softstop_lab::precision::errors::Scale;
 use softstop_lab::precision::family::{self, Family, Look};
@@ -52,48 +52,6 @@ fn end_error(row: &Row) -> f64 {
     row.end_error.unwrap_or_else(|| panic!("{row:?}"))
 }
 
-/// Heun's method on the oscillator without a stop, of second order.
-struct Heun {
-    steps: u64,
-}
-
-impl Integrator for Heun {
-    fn name(&self) -> String {
-        "Heun".to_owned()
-    }
-
-    fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
-        let Scene {
-            mass,
-            stiffness,
-            damping,
-            excitation: drive,
-            ..
-        } = task.scene;
-        let acceleration = |t: f64, (x, v): (f64, f64)| {
-            let force = drive.amplitude * (drive.frequency * t + drive.phase).cos();
-            (force - damping * v - stiffness * x) / mass
-        };
-        let h = task.duration() / self.steps as f64;
-        let Start { position, velocity } = task.start;
-        let (mut x, mut v) = (position, velocity);
-        for step in 0..self.steps {
-            let t = step as f64 * h;
-            let a = acceleration(t, (x, v));
-            let b = acceleration(t + h, (x + h * v, v + h * a));
-            (x, v) = (x + h * v + 0.5 * h * h * a, v + 0.5 * h * (a + b));
-        }
-        Ok(Solution {
-            end: (x, v),
-            impacts: Vec::new(),
-            work: Work {
-                steps: self.steps,
-                evaluations: 2 * self.steps,
-            },
-        })
-    }
-}
-
 #[test]
 fn the_error_of_a_method_falls_with_its_order() -> Outcome {
     let none = docs("scenes/none.toml");
@@ -103,12 +61,15 @@ fn the_error_of_a_method_falls_with_its_order() -> Outcome {
     };
     assert!(case.stored(None).is_some());
     let knobs = [1e-2, 5e-3, 2.5e-3];
-    let heun = Family::new("Heun", LOOK, knobs, |knob| {
-        Box::new(Heun {
-            steps: (2.0 / knob) as u64,
-        })
+    let period = case.machine.scene.period();
+    let newmark = Family::new("Newmark", LOOK, knobs, move |knob| {
+        Box::new(FixedStep::new(
+            Scheme::NEWMARK,
+            knob * period,
+            Events::Located,
+        ))
     });
-    let errors: Vec<f64> = rows(&case, &heun)?.iter().map(end_error).collect();
+    let errors: Vec<f64> = rows(&case, &newmark)?.iter().map(end_error).collect();
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!(is_near(order, 2.0, 0.1), "{errors:?}");
