@@ -28,8 +28,8 @@ macro_rules! functions {
 
 /// The names in a module definition file.
 fn exports(definitions: &str) -> BTreeSet<&str> {
-    let names = definitions.lines().map(str::trim);
-    names.filter(|name| name.starts_with("fmi")).collect()
+    let (_, names) = definitions.split_once("EXPORTS").expect("exports");
+    names.split_whitespace().collect()
 }
 
 #[test]

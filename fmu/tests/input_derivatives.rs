@@ -7,18 +7,6 @@ use crate::common::{OK, Unit, reference};
 use softstop_fmi2::*;
 
 #[test]
-fn input_derivatives() {
-    let unit = Unit::new();
-    unit.begin();
-    let set = |name: &str, order: c_int, value: f64| unit.slope(name, order, value);
-    assert_eq!(set("force", 1, 0.25), OK);
-    assert_eq!(set("force", 2, 0.0), OK);
-    assert_eq!(set("force", 8, 0.0), OK);
-    assert_eq!(unit.step(0.0, 2.0), OK);
-    assert_eq!(unit.get("force"), 0.5);
-}
-
-#[test]
 fn input_derivatives_of_every_order_go_on_until_the_value_is_set() {
     let unit = Unit::new();
     unit.begin();

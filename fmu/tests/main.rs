@@ -9,7 +9,6 @@ mod discard;
 mod drive;
 mod input_derivatives;
 mod libraries;
-mod memory;
 mod package;
 mod refusals;
 mod start_values;
