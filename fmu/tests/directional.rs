@@ -166,20 +166,32 @@ fn parameters_at_the_end_of_their_range() {
     assert_near(found[3], -7.0, 1e-9);
 }
 
-/// At the start and over a first step, under a constant drive and along a ramp of it.
+/// At the start and over a first step, under a constant drive, one that its inputs lead and along a ramp of it.
 #[test]
 fn drive_frame_and_contacts() {
-    for (model, ramp, time) in [2.0, 3.0, 4.0, 5.0, 6.0]
+    let names = [&FURTHER[..], &OUTPUTS].concat();
+    let names: [&str; 20] = names.try_into().expect("twenty names");
+    let led_by = [
+        (0.0, 0.0, 0.0),
+        (1.0, 0.0, 0.05),
+        (1.0, 1.0, 0.0),
+        (1.0, 1.0, 0.05),
+    ];
+    for (model, (speed, amplitude, ramp), time) in [2.0, 3.0, 4.0, 5.0, 6.0]
         .into_iter()
-        .flat_map(|model| [0.0, 0.05].map(|ramp| (model, ramp)))
-        .flat_map(|(model, ramp)| [0.0, 0.4, 9.0].map(|time| (model, ramp, time)))
+        .flat_map(|model| led_by.map(|led| (model, led)))
+        .flat_map(|(model, led)| [0.0, 0.4, 9.0].map(|time| (model, led, time)))
     {
         let run = |name: &str, change: f64| {
             let unit = Unit::new();
             let moved = |of: &str, value: f64| value + if of == name { change } else { 0.0 };
             let set = |of, value| assert_eq!(unit.set(of, moved(of, value)), OK, "{of}");
-            unit.set_all(&[("stop.model", model), ("excitation.phase", 0.7)]);
-            assert_eq!(unit.set("drive.takes.speed", f64::from(ramp > 0.0)), OK);
+            unit.set_all(&[
+                ("stop.model", model),
+                ("excitation.phase", 0.7),
+                ("drive.takes.speed", speed),
+                ("drive.takes.amplitude", amplitude),
+            ]);
             set("initial.position", 5.0);
             set("initial.velocity", 8.0);
             if time > 0.0 {
@@ -190,29 +202,28 @@ fn drive_frame_and_contacts() {
             set("force", 0.4);
             set("base.acceleration", 0.3);
             set("drive.speed", 1.15);
+            set("drive.amplitude", 1.0);
             assert_eq!(unit.slope("force", 1, 0.4 * ramp), OK);
             assert_eq!(unit.slope("drive.speed", 1, ramp), OK);
             if time > 0.0 {
                 assert_eq!(unit.step(0.0, time), OK);
+                assert!(time < 1.0 || unit.get("impact.step.count") > 0.0);
             }
             unit
         };
-        for name in [
-            "initial.position",
-            "initial.velocity",
-            "force",
-            "base.acceleration",
-            "drive.speed",
+        for (name, seed) in [
+            ("initial.position", 0.5),
+            ("initial.velocity", -1.0),
+            ("force", 1.0),
+            ("base.acceleration", 0.5),
+            ("drive.speed", -0.25),
+            ("drive.amplitude", 1.5),
         ] {
-            let found = run("", 0.0).derivatives(&FURTHER, &[(name, 1.0)]);
-            let expected = difference(|change| outputs(&run(name, change), FURTHER), 1e-6);
+            let found = run("", 0.0).derivatives(&names, &[(name, seed)]);
+            let expected = difference(|change| outputs(&run(name, seed * change), names), 1e-6);
             let found = found.expect("available");
-            assert_close(
-                &found,
-                &expected,
-                2e-6,
-                &format!("{model} {ramp} {time} {name}"),
-            );
+            let what = format!("{model} {speed} {amplitude} {ramp} {time} {name}");
+            assert_close(&found, &expected, 2e-6, &what);
         }
     }
 }

@@ -355,55 +355,6 @@ fn impulse_of_a_period() {
     assert!(sums.1 > 5.0);
 }
 
-/// Derivatives by every input and by the start, over a step with impacts, plain and in pieces.
-#[test]
-fn derivatives_of_what_is_new() {
-    for ramp in [0.0, 0.02] {
-        let knowns = [
-            ("force", 1.0),
-            ("base.acceleration", 0.5),
-            ("drive.speed", -0.25),
-            ("drive.amplitude", 1.5),
-            ("initial.position", 0.5),
-            ("initial.velocity", -1.0),
-        ];
-        let run = |known: &str, change: f64| {
-            let unit = led(1.15);
-            let start = |name: &str| unit.get(name) + if name == known { change } else { 0.0 };
-            let all = knowns.map(|(name, _)| (name, start(name)));
-            for (name, value) in all {
-                assert_eq!(unit.set(name, value), OK);
-            }
-            unit.begin();
-            slope(&unit, "drive.speed", 1, ramp);
-            assert_eq!(unit.step(0.0, 5.0), OK);
-            assert!(unit.get("impact.step.count") > 0.0);
-            unit
-        };
-        let unit = run("", 0.0);
-        let names: Vec<_> = FURTHER.into_iter().chain(crate::common::OUTPUTS).collect();
-        for (known, seed) in knowns {
-            let found = unit
-                .derivatives(&names, &[(known, seed)])
-                .expect("available");
-            let at = |change: f64| {
-                let unit = run(known, change);
-                names.iter().map(|name| unit.get(name)).collect::<Vec<_>>()
-            };
-            let (high, low) = (at(1e-5 * seed), at(-1e-5 * seed));
-            for (n, name) in names.iter().enumerate() {
-                let expected = (high[n] - low[n]) / 2e-5;
-                let off = (found[n] - expected).abs();
-                assert!(
-                    off < 2e-5 * (1.0 + expected.abs()),
-                    "{ramp} d {name} / d {known}: {} {expected}",
-                    found[n]
-                );
-            }
-        }
-    }
-}
-
 /// A state kept on the way through a ramp goes on bit for bit, and tells the same of the last step.
 #[test]
 fn states_on_a_ramp() {
