@@ -291,14 +291,9 @@ fn a_cost_is_the_value_of_its_formula() -> Outcome {
 /// A front of a task with a cost, as a user states it, and its files.
 #[test]
 fn a_front_is_written_as_table_and_picture() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let task = folder.path().join("task.toml");
-    std::fs::write(
-        &task,
-        "machine = \"unloaded\"\n[vary]\nstop.stiffness = 7.0\nclearance = [4, 20]\n[objective]\nmaximise = [\"velocity\"]\n\
-         minimise = [\"cost\"]\ncost = \"10 + clearance^2 / 10 + 0.1 * stop_force\"\n[require]\ncost = 40\n",
-    )?;
-    let report = SOFTSTOP.report(&format!("optimize --config {} --no-report", task.display()));
+    let task = "machine = \"unloaded\"\n[vary]\nstop.stiffness = 7.0\nclearance = [4, 20]\n[objective]\nmaximise = [\"velocity\"]\n\
+         minimise = [\"cost\"]\ncost = \"10 + clearance^2 / 10 + 0.1 * stop_force\"\n[require]\ncost = 40\n";
+    let report = SOFTSTOP.report_of("task.toml", task, "optimize --config FILE --no-report");
     let points = report.list("pareto/points");
     assert!(points.len() >= 8, "{points:?}");
     for point in points {

@@ -14,7 +14,7 @@ use std::time::Instant;
 use approx::assert_abs_diff_eq;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use softstop_testing::{Program, words};
+use softstop_testing::{Program, number_in, words};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -84,22 +84,18 @@ fn a_map_has_what_other_commands_find() -> Outcome {
 }
 
 #[test]
-fn samples_stay_in_their_range_and_figures_agree() -> Outcome {
-    let folder = tempfile::tempdir()?;
+fn samples_stay_in_their_range_and_figures_agree() {
     let text = "outputs = [\"kind\", \"trace\", \"determinant\", \"largest_multiplier\", \"exponent\", \
         \"frequency_g0\", \"frequency_sn\", \"margin\", \"margin_sn\", \"certainty\", \"stop_force\"]\n\
         samples = 12\nseed = 3\n[certainty]\nstarts = 16\n\
         [[axis]]\nparameter = \"eta\"\nvalues = [1.15]\n\
         [[axis]]\nparameter = \"rho\"\nfrom = 9\nto = 11\nsample = \"sobol\"\n\
         [[axis]]\nparameter = \"k4\"\nfrom = 5\nto = 50\nscale = \"log\"\nsample = \"random\"\n";
-    let study = written(folder.path(), text)?;
-    let out = folder.path().join("out");
-    STUDY.json_into(&out, &[&study, "--csv"]);
-    let (names, rows) = table(&out)?;
+    let report = STUDY.report_of("study.toml", text, "FILE --csv");
+    let rows = report.table("study.csv");
     assert_eq!(rows.len(), 12);
-    let place = |name: &str| names.iter().position(|it| it == name).expect("a column");
     for row in rows {
-        let number = |name| row[place(name)].parse::<f64>().expect("a number");
+        let number = |name| number_in(&row, name);
         assert!((9.0..=11.0).contains(&number("clearance")));
         assert!((5.0..=50.0).contains(&number("stop.stiffness")));
         let (sn, g0) = (number("frequency_sn"), number("frequency_g0"));
@@ -107,12 +103,11 @@ fn samples_stay_in_their_range_and_figures_agree() -> Outcome {
         assert_abs_diff_eq!(number("margin"), share.min(1.0 - share), epsilon = 1e-12);
         assert_abs_diff_eq!(number("margin_sn"), sn - 1.15, epsilon = 1e-12);
         assert!((0.0..=1.0).contains(&number("certainty")));
-        assert_eq!(row[place("kind")], "periodic");
+        assert_eq!(row["kind"], "periodic");
         let modulus = number("largest_multiplier");
         assert_abs_diff_eq!(number("exponent"), modulus.ln(), epsilon = 1e-9);
         assert!(modulus * modulus >= number("determinant") - 1e-9);
     }
-    Ok(())
 }
 
 #[test]

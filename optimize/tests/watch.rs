@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use softstop_testing::{docs, words};
+use softstop_testing::report::Row;
+use softstop_testing::{docs, number_in, words};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -29,37 +30,28 @@ fn page(folder: &Path, arguments: &[&str]) -> Outcome<(String, Value)> {
 }
 
 /// The rows of crossings.csv of the same run that are impacts or rebounds, and the summary's `impacts`.
-fn crossings(folder: &Path, arguments: &[&str]) -> Outcome<(Vec<Vec<String>>, Value)> {
-    let output = ["--output", folder.to_str().ok_or("path")?];
-    let summary = SOFTSTOP.json(&[&["simulate"], arguments, &output].concat());
-    let table = fs::read_to_string(folder.join("crossings.csv"))?;
-    let rows = table.lines().skip(1);
-    let rows = rows.map(|row| row.split(',').map(str::to_owned).collect());
-    let hits = rows.filter(|row: &Vec<String>| row[8] == "1" || row[1] == "rebound");
-    Ok((hits.collect(), summary["impacts"].clone()))
+fn crossings(arguments: &[&str]) -> (Vec<Row>, Value) {
+    let report = SOFTSTOP.report(&format!("simulate {}", arguments.join(" ")));
+    let mut hits = report.table("crossings.csv");
+    hits.retain(|row| row["impact"] == "1" || row["kind"] == "rebound");
+    (hits, report.at("impacts").clone())
 }
 
 /// Every impact of the run is on the page to the bit, and its time is the time of samples, one of which has its state.
 fn holds_every_impact(arguments: &[&str]) -> Outcome<Value> {
     let folder = tempfile::tempdir()?;
     let (_, motion) = page(folder.path(), arguments)?;
-    let (rows, impacts) = crossings(folder.path(), arguments)?;
+    let (rows, impacts) = crossings(arguments);
     let hits = motion["hits"].as_array().ok_or("hits")?;
     assert_eq!(hits.len(), rows.len(), "{arguments:?}");
     let time = numbers(&motion["samples"]["time"]);
     let position = numbers(&motion["samples"]["position"]);
     assert!(time.is_sorted(), "{arguments:?}");
     for (hit, row) in hits.iter().zip(&rows) {
-        let columns = [
-            ("time", 0),
-            ("position", 3),
-            ("velocity_before", 4),
-            ("velocity_after", 5),
-        ];
-        for (name, column) in columns {
-            assert_eq!(hit[name].as_f64(), Some(row[column].parse()?), "{name}");
+        for name in ["time", "position", "velocity_before", "velocity_after"] {
+            assert_eq!(hit[name].as_f64(), Some(number_in(row, name)), "{name}");
         }
-        assert_eq!(hit["impact"].to_string(), row[8]);
+        assert_eq!(hit["impact"].to_string(), row["impact"]);
         let at = hit["time"].as_f64().ok_or("time")?;
         let index = time.partition_point(|it| *it <= at) - 1;
         assert_eq!(time[index], at, "{arguments:?}: no sample at an impact");
@@ -129,11 +121,9 @@ fn the_last_periods_alone_are_shown() -> Outcome {
     let (_, motion) = page(folder.path(), &line)?;
     let period = motion["drive"]["period"].as_f64().ok_or("period")?;
     assert_eq!(numbers(&motion["span"])[0], 47.0 * period);
-    let (all, _) = crossings(folder.path(), &line[..3])?;
-    let times = all.iter().map(|row| row[0].parse::<f64>());
-    let times: Vec<f64> = times.collect::<Result<_, _>>()?;
-    let last = times.iter().filter(|it| **it >= 47.0 * period).count();
-    assert_eq!(motion["hits"].as_array().map(Vec::len), Some(last));
+    let (mut last, _) = crossings(&line[..3]);
+    last.retain(|row| number_in(row, "time") >= 47.0 * period);
+    assert_eq!(motion["hits"].as_array().map(Vec::len), Some(last.len()));
     assert_eq!(motion["samples"]["time"][0], motion["span"][0]);
     Ok(())
 }

@@ -1,11 +1,12 @@
 //! A figure of the paper as `softstop-lab paper` draws it in draft, once for all tests.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use serde_json::Value;
-use softstop_testing::{Program, is_near};
+use softstop_testing::report::Row;
+use softstop_testing::{Program, is_near, table};
 
 const PROGRAM: Program = Program {
     file: env!("CARGO_BIN_EXE_softstop-lab"),
@@ -51,10 +52,8 @@ impl Figure {
     }
 
     /// A table of it: its lines as maps by the header.
-    pub fn table(&self, name: &str) -> Vec<BTreeMap<String, String>> {
-        let mut reader = csv::Reader::from_path(self.file(name)).expect("a table");
-        let lines = reader.deserialize();
-        lines.map(|line| line.expect("a line")).collect()
+    pub fn table(&self, name: &str) -> Vec<Row> {
+        table(&self.file(name))
     }
 
     /// A number that it found, if it did.

@@ -1,14 +1,13 @@
 //! Figures 7 and 9 of the paper: their numbers against those known, and the files beside them.
 
 use softstop_testing::tolerance::{DIFFERENCED, MOTION, printed};
-use std::collections::BTreeMap;
 
 use crate::figure::Figure;
-use softstop_testing::assert_near;
+use softstop_testing::report::Row;
+use softstop_testing::{assert_near, number_in};
 
-fn numbers(lines: &[BTreeMap<String, String>], name: &str) -> Vec<f64> {
-    let number = |line: &BTreeMap<String, String>| line[name].parse().expect("a number");
-    lines.iter().map(number).collect()
+fn numbers(lines: &[Row], name: &str) -> Vec<f64> {
+    lines.iter().map(|row| number_in(row, name)).collect()
 }
 
 #[test]

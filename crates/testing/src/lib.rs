@@ -23,7 +23,7 @@ pub use meets::Meets;
 pub use near::{assert_near, assert_relative, is_near};
 pub use program::{Program, files, kill, words};
 pub use random::cases;
-pub use report::{Report, has_near, number, with_folders};
+pub use report::{Report, has_near, number, number_in, table, with_folders};
 pub use scenes::{
     hertz, kelvin_voigt, loaded, piercing, preloaded, rigid_stop, slope, units, unloaded,
     with_changes,

@@ -1,5 +1,6 @@
 //! What a program reports in JSON, and the files that it wrote.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -15,6 +16,30 @@ pub fn with_folders(line: &str) -> String {
     let place = |name: &str| docs(name).display().to_string();
     let line = line.replace("SCENES", &place("scenes"));
     line.replace("STUDIES", &place("studies"))
+}
+
+/// A row of a table: its cells by the names of their columns.
+pub type Row = BTreeMap<String, String>;
+
+/// The rows of a table, each with all columns.
+///
+/// # Panics
+/// If there is none.
+#[track_caller]
+pub fn table(path: &Path) -> Vec<Row> {
+    let mut reader = csv::Reader::from_path(path).expect("a table");
+    let rows = reader.deserialize();
+    rows.map(|row| row.expect("a row")).collect()
+}
+
+/// The number in a column of a row.
+///
+/// # Panics
+/// If there is none.
+#[track_caller]
+pub fn number_in(row: &Row, column: &str) -> f64 {
+    let number = row.get(column).and_then(|cell| cell.parse().ok());
+    number.unwrap_or_else(|| panic!("{column} is no number in {row:?}"))
 }
 
 /// A report, and the folder of its files, which goes with it.
@@ -42,7 +67,24 @@ impl Program {
     /// If it fails, or writes other than JSON.
     #[track_caller]
     pub fn report(&self, line: &str) -> Report {
+        self.report_into(tempfile::tempdir().expect("a folder"), line)
+    }
+
+    /// Runs a line where it has to succeed, writing into a new folder, with a file of this name and text there in place of
+    /// `FILE`.
+    ///
+    /// # Panics
+    /// If it fails, or writes other than JSON.
+    #[track_caller]
+    pub fn report_of(&self, name: &str, text: &str, line: &str) -> Report {
         let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join(name);
+        fs::write(&file, text).expect("a file");
+        self.report_into(folder, &line.replace("FILE", &file.display().to_string()))
+    }
+
+    #[track_caller]
+    fn report_into(&self, folder: TempDir, line: &str) -> Report {
         let value = self.value(&format!("{line} --output {}", folder.path().display()));
         Report { value, folder }
     }
@@ -97,6 +139,12 @@ impl Report {
     #[track_caller]
     pub fn text(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).expect(name)
+    }
+
+    /// The rows of a table that it wrote.
+    #[track_caller]
+    pub fn table(&self, name: &str) -> Vec<Row> {
+        table(&self.path(name))
     }
 
     /// Asserts that a picture is whole and has these words.

@@ -84,25 +84,20 @@ fn task_file_and_command_line_say_the_same() -> Outcome {
 /// The most certain zones of this press are far from where the impact is hardest: a search from there alone ends at 3.97 m/s.
 #[test]
 fn a_certain_design_is_found_far_from_the_hardest_one() -> Outcome {
-    let folder = tempfile::tempdir()?;
     let press = fs::read_to_string(docs("press/press.toml"))?;
     let certain = "certainty = { least = 0.85, at = \"drawing\" } ";
     let task = press.replace("certainty = 0.5 ", certain);
     assert!(task.contains(certain));
-    let file = folder.path().join("press.toml");
-    fs::write(&file, task)?;
-    let line = format!("optimize {} --no-report --samples 64", file.display());
-    let velocity = SOFTSTOP
-        .report(&line)
-        .number("design/before_impact_velocity");
+    let line = "optimize FILE --no-report --samples 64";
+    let report = SOFTSTOP.report_of("press.toml", &task, line);
+    let velocity = report.number("design/before_impact_velocity");
     assert!(velocity > 8.0, "{velocity}");
     Ok(())
 }
 
 /// Of three catalogues the best values lie on another hill than those of the best start: each start is bettered by exchange.
 #[test]
-fn catalogues_are_exchanged_from_each_of_the_best_starts() -> Outcome {
-    let folder = tempfile::tempdir()?;
+fn catalogues_are_exchanged_from_each_of_the_best_starts() {
     let task = r#"
 mass = 1.0
 stiffness = 1.0
@@ -123,15 +118,8 @@ stiffness = { values = [0.5289, 0.7726, 0.8666, 0.9687, 1.3109, 1.3122, 1.3835, 
 [require]
 stroke = 20.0196
 "#;
-    let file = folder.path().join("task.toml");
-    fs::write(&file, task)?;
-    let line = format!(
-        "optimize {} --no-report --evaluations 200 --samples 0",
-        file.display()
-    );
-    let velocity = SOFTSTOP
-        .report(&line)
-        .number("design/before_impact_velocity");
+    let line = "optimize FILE --no-report --evaluations 200 --samples 0";
+    let report = SOFTSTOP.report_of("task.toml", task, line);
+    let velocity = report.number("design/before_impact_velocity");
     assert!(velocity > 13.346, "{velocity}");
-    Ok(())
 }

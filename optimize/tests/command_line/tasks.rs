@@ -1,7 +1,5 @@
 //! Tasks in the user's words, and what they do.
 
-use std::fs;
-
 use serde_json::Value;
 use softstop_testing::{Report, assert_near, has_near, number};
 
@@ -15,13 +13,8 @@ const VARY: &str = "[vary]\nclearance = [0.006, 0.012]\nexcitation.frequency_hz 
 
 /// Runs a task; its report, and the task's own file beside those of the design.
 fn run(more: &str) -> Report {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("press.toml");
-    fs::write(&file, format!("{PRESS}{more}")).expect("a file");
-    let line = format!("optimize {} --no-report --samples 4096", file.display());
-    let report = SOFTSTOP.report(&line);
-    fs::rename(file, report.path("press.toml")).expect("a file");
-    report
+    let line = "optimize FILE --no-report --samples 4096";
+    SOFTSTOP.report_of("press.toml", &format!("{PRESS}{more}"), line)
 }
 
 fn requirement<'a>(report: &'a Report, name: &str) -> &'a Value {
