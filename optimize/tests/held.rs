@@ -1,18 +1,16 @@
 //! No grid over clearance and place in the zone beats the optimum, whatever the machine and its units, and whatever is
 //! required of it.
 
-use rayon::prelude::*;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::zone;
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::figure::Figure;
-use softstop_optimize::design::judge::{RequirementValue, ZoneMotion};
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_testing::docs;
 
 use crate::Outcome;
+use crate::grid::of_designs;
 
 /// Clearances, and places in the zone of each.
 type Size = (usize, usize);
@@ -26,7 +24,6 @@ const DENSE: Size = (480, 401);
 struct ActiveLimits {
     name: &'static str,
     problem: Problem,
-    range: Interval,
 }
 
 impl ActiveLimits {
@@ -43,38 +40,7 @@ impl ActiveLimits {
             requirements: requirements.to_vec(),
             ..Problem::of(machine, axes)
         };
-        Self {
-            name,
-            problem,
-            range,
-        }
-    }
-
-    /// The best value on a grid, of motions that are stable, as required, and within the margin.
-    fn on_grid(&self, (clearances, places): Size) -> f64 {
-        let problem = &self.problem;
-        let row = |index: usize| {
-            let clearance = self.range.at(index as f64 / (clearances - 1) as f64);
-            let mut machine = problem.machine_at(&[clearance]);
-            let zone = zone::hysteresis(&machine.scene).ok()?;
-            let value = |index: usize| {
-                let share = index as f64 / (places - 1) as f64;
-                let place = problem.margin + share * (1.0 - 2.0 * problem.margin);
-                let orbit = zone
-                    .orbit_at(place)
-                    .ok()
-                    .filter(|orbit| orbit.is_stable())?;
-                Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
-                let motion = ZoneMotion::new(&machine, &zone, place, &orbit).ok()?;
-                let met = problem.met(&motion);
-                met.iter()
-                    .all(RequirementValue::is_met)
-                    .then(|| problem.sought(&motion))?
-            };
-            (0..places).filter_map(value).max_by(f64::total_cmp)
-        };
-        let rows = (0..clearances).into_par_iter().filter_map(row);
-        rows.reduce(|| f64::NEG_INFINITY, f64::max)
+        Self { name, problem }
     }
 
     /// No point of a grid is better than the optimum, and the best of them comes near.
@@ -82,7 +48,9 @@ impl ActiveLimits {
     fn holds(&self, size: Size) -> Outcome {
         let settings = SearchSettings { evaluations: 300 };
         let found = search(&self.problem, settings, &Unmonitored, None)?;
-        let (name, value, grid) = (self.name, found.design.value, self.on_grid(size));
+        let (name, value) = (self.name, found.design.value);
+        let grid = of_designs(&self.problem, size, |it| Some(it.value));
+        let grid = grid.into_iter().fold(f64::NEG_INFINITY, f64::max);
         println!(
             "{name}: optimum {value}, best of {size:?} points {grid}, {:e} less",
             1.0 - grid / value

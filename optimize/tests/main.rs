@@ -8,6 +8,7 @@ mod continuation;
 mod fidelity;
 mod gallery;
 mod gradients;
+mod grid;
 mod guide;
 mod handed_on;
 mod held;

@@ -12,6 +12,7 @@ use softstop_optimize::design::{Design, Problem};
 use softstop_testing::tolerance::{MOTION, printed};
 
 use crate::Outcome;
+use crate::grid::{of_designs, shares};
 
 const CLEARANCE: Interval = Interval::new(2.0, 22.0);
 const ANY: Interval = Interval::new(0.01, f64::INFINITY);
@@ -49,23 +50,12 @@ fn solve(problem: &Problem, evaluations: u64) -> Result<Design, SearchError> {
     search(problem, SearchSettings { evaluations }, &Unmonitored, None).map(|found| found.design)
 }
 
-/// `count` points of an interval, both ends among them.
-fn grid(range: Interval, count: usize) -> impl Iterator<Item = f64> {
-    (0..count).map(move |index| range.at(index as f64 / (count - 1) as f64))
-}
-
-/// The velocity at one point, with the places of the zone taken from a grid too.
-fn on_grid(problem: &Problem, stiffness: f64, clearance: f64, places: usize) -> f64 {
-    let scene = problem.machine_at(&[stiffness, clearance]).scene;
-    let Ok(zone) = softstop_dynamics::zone::hysteresis(&scene) else {
-        return f64::NEG_INFINITY;
-    };
-    let window = Interval::new(problem.margin, 1.0 - problem.margin);
-    grid(window, places)
-        .filter_map(|place| zone.orbit_at(place).ok())
-        .filter(|orbit| orbit.is_stable())
-        .map(|orbit| orbit.before_impact_velocity())
-        .fold(f64::NEG_INFINITY, f64::max)
+/// The hardest impact on a grid over the clearance and the places in the zone, with its clearance.
+fn on_grid(problem: &Problem, clearances: usize, places: usize) -> (f64, f64) {
+    let velocity = |it: &Design| Some((it.before_impact_velocity(), it.machine.scene.clearance));
+    let all = of_designs(problem, (clearances, places), velocity).into_iter();
+    all.max_by(|one, other| one.0.total_cmp(&other.0))
+        .expect("a design")
 }
 
 /// No grid point is better, and the best one is as near as its distance from the optimum lets
@@ -99,11 +89,7 @@ fn ranges_of_decades_are_searched() -> Outcome {
 fn best_clearance_of_the_papers_stop() -> Outcome {
     let problem = problem(0.25);
     let design = solve(&problem, 400)?;
-    let best = grid(CLEARANCE, 401)
-        .map(|clearance| (on_grid(&problem, 7.0, clearance, 21), clearance))
-        .fold((f64::NEG_INFINITY, 0.0), |best, point| {
-            if point.0 > best.0 { point } else { best }
-        });
+    let best = on_grid(&problem, 401, 21);
     agrees(design.before_impact_velocity(), best.0, 1e-3);
     let step = 20.0 / 400.0;
     assert_abs_diff_eq!(design.machine.scene.clearance, best.1, epsilon = step);
@@ -116,8 +102,7 @@ fn best_clearance_to_a_millionth() -> Outcome {
     let design = solve(&problem, 400)?;
     let near = design.machine.scene.clearance;
     let fine = Interval::new(near - 0.05, near + 0.05);
-    let best = grid(fine, 201).map(|clearance| on_grid(&problem, 7.0, clearance, 11));
-    let best = best.fold(f64::NEG_INFINITY, f64::max);
+    let (best, _) = on_grid(&over(Interval::held(7.0), fine, 0.25), 201, 11);
     agrees(design.before_impact_velocity(), best, 1e-6 * best);
     Ok(())
 }
@@ -126,9 +111,9 @@ fn best_clearance_to_a_millionth() -> Outcome {
 fn best_stiffness_and_clearance() -> Outcome {
     let problem = over(STIFFNESS, CLEARANCE, 0.25);
     let design = solve(&problem, 800)?;
-    let best = grid(STIFFNESS, 16)
-        .flat_map(|k4| grid(CLEARANCE, 31).map(move |rho| (k4, rho)))
-        .map(|(k4, rho)| on_grid(&problem, k4, rho, 5))
+    let best = shares(16)
+        .map(|it| over(Interval::held(STIFFNESS.at(it)), CLEARANCE, 0.25))
+        .map(|problem| on_grid(&problem, 31, 5).0)
         .fold(f64::NEG_INFINITY, f64::max);
     agrees(design.before_impact_velocity(), best, 0.02 * best);
     Ok(())
@@ -310,8 +295,8 @@ fn a_rigid_stop_has_an_optimum_too() -> Outcome {
         ..problem(0.25)
     };
     let design = solve(&problem, 300)?;
-    let best = grid(CLEARANCE, 81)
-        .filter_map(|clearance| problem.at(&[clearance]).ok())
+    let best = shares(81)
+        .filter_map(|share| problem.at(&[CLEARANCE.at(share)]).ok())
         .map(|design| design.before_impact_velocity())
         .fold(f64::NEG_INFINITY, f64::max);
     agrees(design.before_impact_velocity(), best, 0.02 * best);

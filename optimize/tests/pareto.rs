@@ -1,13 +1,12 @@
 //! Fronts of designs: against all designs of a grid, against searches by one objective alone, and as files; what a design costs.
 
-use rayon::prelude::*;
 use softstop::internals::Expression;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::zone;
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::cost::{Cost, Term};
 use softstop_optimize::design::figure::{Figure, Sense};
-use softstop_optimize::design::judge::{RequirementValue, ZoneMotion};
+use softstop_optimize::design::judge::ZoneMotion;
 use softstop_optimize::design::pareto::Pareto;
 use softstop_optimize::design::problem::{Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
@@ -15,6 +14,7 @@ use softstop_optimize::design::search::{SearchSettings, Unmonitored, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::robust::Distribution;
 
+use crate::grid::of_designs;
 use crate::{Outcome, SOFTSTOP};
 
 const SETTINGS: SearchSettings = SearchSettings { evaluations: 400 };
@@ -92,45 +92,18 @@ fn is_front(problem: &Problem, front: &Pareto) -> Outcome {
     Ok(())
 }
 
-/// What all designs of a dense grid have of the objectives, those that are as required.
-fn grid(problem: &Problem, sizes: [usize; 2]) -> Vec<Vec<f64>> {
-    let range = problem.axes[0].range;
-    let places = |index: usize| {
-        problem.margin + (1.0 - 2.0 * problem.margin) * index as f64 / sizes[1] as f64
-    };
-    let rows = (0..=sizes[0]).into_par_iter().flat_map_iter(|row| {
-        let mut machine = problem.machine_at(&[range.at(row as f64 / sizes[0] as f64)]);
-        let zone = zone::hysteresis(&machine.scene).ok();
-        let mut all = Vec::new();
-        for place in zone.iter().flat_map(|_| (0..=sizes[1]).map(places)) {
-            let Some(zone) = &zone else { continue };
-            let Ok(orbit) = zone.point_at(place).and_then(|it| zone.orbit_of(&it)) else {
-                continue;
-            };
-            Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
-            let Ok(motion) = ZoneMotion::new(&machine, zone, place, &orbit) else {
-                continue;
-            };
-            if orbit.is_stable() && problem.met(&motion).iter().all(RequirementValue::is_met) {
-                let objectives = problem.objectives();
-                let values = objectives
-                    .iter()
-                    .map(|it| problem.value(&motion, it.figure));
-                all.push(graded(&objectives, &values.collect::<Vec<f64>>()));
-            }
-        }
-        all
-    });
-    rows.collect()
-}
-
 #[test]
 fn no_design_of_a_grid_is_better_than_a_front() -> Outcome {
     let problem = problem(vec![objective(Figure::StopForce, Sense::Most)])?;
     let front = front(&problem)?;
     assert!(front.points.len() >= 10, "{:?}", front.tally);
     is_front(&problem, &front)?;
-    let grid = grid(&problem, [160, 80]);
+    let grid = of_designs(&problem, (161, 81), |it| {
+        let (motion, objectives) = (it.judged().ok()?, problem.objectives());
+        let values = objectives.iter();
+        let values = values.map(|it| problem.value(&motion, it.figure));
+        Some(graded(&objectives, &values.collect::<Vec<f64>>()))
+    });
     assert!(grid.len() > 5000, "{}", grid.len());
     for point in &front.points {
         let own = graded(&front.objectives, &point.values);

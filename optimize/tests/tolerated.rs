@@ -17,6 +17,7 @@ use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, Norm, nearest, verify};
 
 use crate::Outcome;
+use crate::grid::of_designs;
 
 const SETTINGS: SearchSettings = SearchSettings { evaluations: 300 };
 
@@ -71,33 +72,6 @@ fn factor(problem: &Problem, design: &Design) -> Outcome<f64> {
     Ok(found.first().map_or(f64::INFINITY, |it| it.distance))
 }
 
-/// Designs on a grid over clearance and the places of its zone.
-fn grid(problem: &Problem, clearances: usize, places: usize) -> Vec<Design> {
-    let row = |index: usize| {
-        let clearance = CLEARANCE.at(index as f64 / (clearances - 1) as f64);
-        let machine = problem.machine_at(&[clearance]);
-        let zone = zone::hysteresis(&machine.scene).ok();
-        let design = move |index: usize| {
-            let zone = zone.clone()?;
-            let frequency = problem.frequency.at(index as f64 / (places - 1) as f64);
-            let place = (frequency - zone.frequency_g0) / (zone.high.frequency - zone.frequency_g0);
-            let orbit = zone.orbit_at(place).ok().filter(|it| it.is_stable())?;
-            let mut machine = machine.clone();
-            Parameter::Frequency.set(&mut machine.scene, frequency);
-            Some(Design {
-                value: orbit.before_impact_velocity(),
-                machine,
-                place,
-                zone,
-                orbit,
-                cases: Vec::new(),
-            })
-        };
-        (0..places).filter_map(design).collect::<Vec<_>>()
-    };
-    (0..clearances).into_par_iter().flat_map_iter(row).collect()
-}
-
 #[test]
 fn no_machine_is_lost_to_a_fold_inside_the_zone() -> Outcome {
     let problem = above_a_fold(1.0)?;
@@ -114,9 +88,11 @@ fn no_machine_is_lost_to_a_fold_inside_the_zone() -> Outcome {
     let is_loss = limits.iter().any(|it| it.limit == Limit::Loss);
     assert!(is_loss, "{limits:?}");
     assert_eq!(problem.border_within(&design).as_deref(), Some("fold"));
-    for other in grid(&problem, 17, 35) {
-        let is_better = other.value > design.value * (1.0 + 1e-6);
-        assert!(!is_better || factor(&problem, &other)? < 1.0, "{other:?}");
+    let better = of_designs(&problem, (17, 35), |it| {
+        (it.value > design.value * (1.0 + 1e-6)).then(|| it.clone())
+    });
+    for other in better {
+        assert!(factor(&problem, &other)? < 1.0, "{other:?}");
     }
     Ok(())
 }
