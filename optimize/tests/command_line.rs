@@ -32,17 +32,6 @@ fn orbit_at_point_a() {
 }
 
 #[test]
-fn orbit_at_point_b() {
-    let orbit = SOFTSTOP.value("orbit loaded");
-    // X_m is confirmed by an independent Runge-Kutta integration (order 8, tolerance 1e-12).
-    let figures = [
-        ("before_impact_velocity", 8.39868, 5e-6),
-        ("max_position", 11.155995, 1e-6),
-    ];
-    has_near(&orbit, &figures);
-}
-
-#[test]
 fn preload_as_a_deflection_is_the_papers_reading() {
     let mut force = SOFTSTOP.value("orbit --set stop.preload=70");
     let mut deflection = SOFTSTOP.value("orbit --set stop.preload_deflection=10");
@@ -72,28 +61,13 @@ fn zone_of_the_paper() {
     assert_eq!([&own[0]["from_by"], &own[0]["to_by"]], ["flip", "fold"]);
 }
 
-/// No motion at g0 leads to its z = 1.
-#[test]
-fn an_isola_is_no_zone_and_is_listed() {
-    let zone = SOFTSTOP.value(
-        "zone loaded --set rho=4.966953067590672 --set stop.stiffness=1.4398692936028583 \
-         --set stop.preload=262.9190348246658 --set damping=0.005802743231567894 --set contact.damping=0.002011340630926028 \
-         --set piercing.stiffness=2.2530448386935893 --set piercing.friction=23.91485155268388 \
-         --set sigma=0.8282795600642743 --set nu=0.7915560771078273",
-    );
-    assert!(zone["frequency_sn"].is_null());
-    let why = zone["no_zone"].as_str().expect("why");
-    assert!(why.contains("no stable z = 1 motion"), "{why}");
-    let last = zone["stretches"].as_array().and_then(|all| all.last());
-    has_near(last.expect("a stretch"), &[("to", 1.6786, 5e-5)]);
-}
-
 /// A motion that always impacts grazes nothing: no g0, and stretches all the same.
 #[test]
 fn without_a_grazing_boundary_stretches_are_listed() -> Outcome {
     let zone = SOFTSTOP.value("zone --set rho=0");
     let why = zone["no_zone"].as_str().ok_or("why")?;
     assert!(why.contains("clearance = 0"), "{why}");
+    assert!(zone["frequency_sn"].is_null());
     let stretches = zone["stretches"].as_array().ok_or("stretches")?;
     for (frequency, is_stable) in [("2", true), ("2.7", false)] {
         let at: f64 = frequency.parse()?;

@@ -108,18 +108,6 @@ fn branches_begin_at_points_of_earlier_ones() -> Outcome {
 }
 
 #[test]
-fn an_isolated_motion_is_followed_to_its_ends() {
-    // Rows 12 and 17 of Table 1; an independent simulation sees the flip at 1.005452.
-    let report = SOFTSTOP
-        .report("continue --set eta=0.9875 --orbit 2/3 --parameter eta --from 0.95 --to 1.05");
-    assert_eq!(*report.at("branches/0/periods"), 3);
-    has_specials(
-        &report,
-        &[("G", 0.986_778_9, 5e-8), ("PD", 1.005_452, 5e-6)],
-    );
-}
-
-#[test]
 fn folds_over_clearance_are_those_of_fig_6() {
     let report = SOFTSTOP.report(
         "continue --parameter eta --from 1.1 --to 1.8 --second rho --second-from 2 --second-to 18",
