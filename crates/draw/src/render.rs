@@ -167,12 +167,15 @@ mod tests {
     #[test]
     fn what_is_no_number_is_not_drawn() {
         let (nan, stroke) = (f64::NAN, Stroke::solid(style::DESIGN, 1.0));
-        let layers = [nan, 0.5].map(|x| {
-            vec![
+        for x in [nan, 0.5] {
+            let layers = [
+                Layer::line([], stroke),
+                Layer::line([(1.0, x), (x, x)], stroke),
                 Layer::line([(0.0, 0.0), (x, 0.5), (1.0, 1.0)], stroke).named("line"),
                 Layer::contour([(0.0, x), (1.0, 1.0)], None),
                 Layer::dots([(x, 1.0)], 1.0, style::INK),
                 Layer::marks([(x, 1.0)], Mark::Triangle, style::INK),
+                Layer::marks([(x, x)], Mark::Diamond, style::INK),
                 Layer::band([(0.0, [x, 1.0]), (1.0, [0.0, 1.0])], style::INK, 0.5),
                 Layer::boxes([[(x, 1.0), (0.0, f64::INFINITY)]], style::INK, 0.5),
                 Layer::shades(2, [x, 1.0], "shade"),
@@ -183,15 +186,17 @@ mod tests {
                 Layer::direction([(x, 0.0), (1.0, 1.0)], 0.5, stroke),
                 Layer::text((0.5, x), Align::Left, "text"),
                 Layer::label((x, 0.5), "label"),
-            ]
-        });
-        for layers in layers {
-            let panel = Panel {
-                layers,
-                ..Panel::default()
-            };
-            let svg = Chart::new("Chart", [panel]).svg();
-            assert!(svg.contains("line") && !svg.contains("NaN") && !svg.contains("inf"));
+            ];
+            let alone = layers.iter().map(|it| vec![it.clone()]);
+            for layers in alone.chain([layers.to_vec()]) {
+                let panel = Panel {
+                    layers: layers.clone(),
+                    ..Panel::default()
+                };
+                let svg = Chart::new("Chart", [panel]).svg();
+                assert!(!svg.contains("NaN") && !svg.contains("inf"), "{layers:?}");
+                assert!(layers.len() == 1 || svg.contains("line"));
+            }
         }
     }
 

@@ -116,38 +116,3 @@ fn units(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
         .map(|(name, dimension)| (name, machine.unit(dimension)))
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use softstop_draw::{Axis, Layer, Mark, Panel, style};
-
-    use super::figure::{AT, BOUND, DESIGN, Figure, HALF, Section, bounds};
-    use super::sections;
-
-    /// Values that are no numbers leave gaps, and nothing of them is written.
-    #[test]
-    fn what_is_no_number_is_not_drawn() {
-        let nan = f64::NAN;
-        let places = [(1.0, nan), (nan, nan)];
-        let layers = [
-            Layer::line(places, DESIGN),
-            Layer::line([], DESIGN),
-            Layer::contour(places, None),
-            Layer::marks(places, Mark::Diamond, style::OPTIMUM),
-            Layer::band([(nan, [nan; 2]), (1.0, [nan, 2.0])], style::OPTIMUM, 0.3),
-            Layer::boxes([[(nan, nan), (0.0, nan)]], style::ALLOWED, 1.0),
-            Layer::shades(2, [nan, nan], "shade"),
-            Layer::ring((nan, nan), (nan, nan)),
-            Layer::horizontal(nan, AT, ""),
-        ];
-        let stop = [("stop", nan)];
-        let layers = layers.into_iter().chain(bounds(&stop, BOUND));
-        for layer in layers {
-            let panel = Panel::new(Axis::new("x"), Axis::default(), [layer.clone()]);
-            let figure = Figure::new(Section::Place, HALF, "", [panel], "");
-            let pictures = &sections([figure].iter())[0].2;
-            let svg = &pictures[0].svg;
-            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{layer:?}");
-        }
-    }
-}
