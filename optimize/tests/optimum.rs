@@ -171,20 +171,6 @@ fn another_solver_finds_the_same_optimum() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn the_same_task_gives_the_same_design() -> Outcome {
-    let problem = over(Interval::new(5.0, 9.0), CLEARANCE, 0.3);
-    let settings = SearchSettings { evaluations: 200 };
-    let first = search(&problem, settings, &Unmonitored, None)?.design;
-    let second = search(&problem, settings, &Unmonitored, None)?.design;
-    assert_eq!(first.machine, second.machine);
-    assert_eq!(
-        first.before_impact_velocity().to_bits(),
-        second.before_impact_velocity().to_bits()
-    );
-    Ok(())
-}
-
 /// Watches nothing, and lets all zones cost so many scan windows.
 struct Within(u64);
 
@@ -241,17 +227,6 @@ fn frequency_bounds_cut_the_zone() -> Outcome {
         epsilon = printed(6)
     );
     Ok(())
-}
-
-#[test]
-fn a_preload_deflection_follows_the_stiffness() {
-    let preload = |machine: &Machine| Parameter::Preload.get(&machine.scene);
-    let problem = Problem {
-        machine: deflected(),
-        ..problem(0.25)
-    };
-    assert_eq!(preload(&problem.machine), Some(70.0));
-    assert_eq!(preload(&problem.machine_at(&[12.0, 10.0])), Some(120.0));
 }
 
 /// A press of 120 kg on 2.4 MN/m that the drive bends by 3.75 mm: the best design is that of the ratios.
