@@ -83,7 +83,7 @@ Examples:
       the machine for FMI 3.0, where the importer sees every impact as an event
 
 The FMU holds the library for this platform. It starts at the machine's
-initial state at time 0; an importer may set parameters and inputs by the names of the machine's file.";
+initial state at time 0; an importer may set parameters and inputs by the names in its modelDescription.xml.";
 
 /// Arguments of `softstop fmu`.
 #[derive(Debug, Args)]

@@ -19,7 +19,7 @@ fn has_specials(report: &Report, expected: &[(&str, f64, f64)]) {
 
 #[test]
 fn the_z_1_branch_has_the_rows_of_table_1_and_its_files() -> Outcome {
-    let report = SOFTSTOP.report("continue --parameter eta --from 0.9 --to 1.5");
+    let report = SOFTSTOP.report("continue --parameter eta --from 1.5 --to 0.9");
     // Grazing in closed form.
     let (lower, upper) = grazing_frequencies(&Ratios::unloaded().scene()?)?;
     let rows = [

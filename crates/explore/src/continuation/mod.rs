@@ -197,11 +197,12 @@ impl FollowedParameter {
         let (parameter, unit) = arguments.common.machine.parameter(machine, flag, name)?;
         let own = machine.value(parameter).unwrap_or(f64::NAN);
         let start = own / unit;
-        if from.is_finite() && to.is_finite() && from < to && (from..=to).contains(&start) {
+        let (low, high) = (from.min(to), from.max(to));
+        if low.is_finite() && high.is_finite() && low < high && (low..=high).contains(&start) {
             return Ok(Self {
                 parameter,
                 start: own,
-                range: (from * unit, to * unit),
+                range: (low * unit, high * unit),
             });
         }
         Err(Failure::usage(format!(

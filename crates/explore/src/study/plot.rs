@@ -24,7 +24,7 @@ pub struct PlotArguments {
     /// Folder with study.parquet and study.json
     #[arg(value_name = "DIR", default_value = FOLDER)]
     pub folder: PathBuf,
-    /// Output to draw [default: the first]
+    /// Output to draw [default: the first that can be drawn so]
     #[arg(long, value_name = "NAME")]
     pub of: Option<String>,
     /// One axis for a slice, two grids for a map, by the names of their columns [default: the first two grids, or
@@ -100,16 +100,6 @@ pub(super) struct PlotPoint {
 
 impl<'a> StudyView<'a> {
     fn new(manifest: &'a Manifest, arguments: &PlotArguments) -> Result<Self, Failure> {
-        let columns = &manifest.columns;
-        let column = match &arguments.of {
-            None => columns.first(),
-            Some(name) => columns.iter().find(|column| column.name == *name),
-        };
-        let column = column.ok_or_else(|| {
-            let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-            let asked = arguments.of.as_deref().unwrap_or_default();
-            Failure::usage(format!("--of {asked}: the study has {}", names.join(", ")))
-        })?;
         let named = |flag: &str, name: &str| {
             let place = manifest.axes.iter().position(|axis| axis.parameter == name);
             place.ok_or_else(|| {
@@ -136,6 +126,19 @@ impl<'a> StudyView<'a> {
                 "--over: must be one axis, or two that are grids with from, to and count",
             ));
         }
+        let columns = &manifest.columns;
+        let column = match &arguments.of {
+            None => {
+                let can_be_drawn = |it: &&Column| over.len() == 2 || it.summary.words.is_empty();
+                columns.iter().find(can_be_drawn).or(columns.first())
+            }
+            Some(name) => columns.iter().find(|column| column.name == *name),
+        };
+        let column = column.ok_or_else(|| {
+            let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+            let asked = arguments.of.as_deref().unwrap_or_default();
+            Failure::usage(format!("--of {asked}: the study has {}", names.join(", ")))
+        })?;
         if over.len() == 1 && !column.summary.words.is_empty() {
             let name = &column.name;
             return Err(Failure::usage(format!(
