@@ -8,7 +8,7 @@ mod two_sided;
 use softstop_testing::tolerance::{GROWN, SOLVED};
 use std::collections::HashMap;
 
-use softstop::{Clock, Crossing, Observer, Ratios, Release, Scene, Slope, Start, Stop};
+use softstop::{Clock, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_lanes::{
     BatchObserver, InstructionLimit, Job, LoweredMachine, Outcome, run, run_one_by_one, run_with,
 };
@@ -69,12 +69,8 @@ fn scalar(scene: &Scene, start: Start) -> (Start, u64) {
 }
 
 fn scalar_for(scene: &Scene, start: Start, periods: u64) -> (Start, u64) {
-    let mut motion = scene.motion(start).expect("valid");
-    let mut meets = Meets::default();
-    motion
-        .advance(Clock::at_cycle(periods), &mut meets)
-        .expect("bounded");
-    (motion.state(), meets.impacts)
+    let (end, impacts, _) = single::safely(scene, start, periods);
+    (end, impacts)
 }
 
 fn distance(a: Start, b: Start) -> f64 {

@@ -57,26 +57,14 @@ pub fn one_by_one(
     (outcome.end, outcome.impacts)
 }
 
-#[derive(Default)]
-struct Counts {
-    impacts: u64,
-    crossings: u64,
-}
-
-impl Observer for Counts {
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.crossings += 1;
-        self.impacts += u64::from(crossing.impact_velocity().is_some());
-    }
-}
-
 /// A motion by the safe engine: its end, impacts and crossings.
 pub fn safely(scene: &Scene, start: Start, periods: u64) -> (Start, u64, u64) {
-    let mut counts = Counts::default();
+    let mut meets = Meets::default();
     let mut motion = scene.motion(start).expect("valid");
     let end = Clock::at_cycle(periods);
-    motion.advance(end, &mut counts).expect("bounded");
-    (motion.state(), counts.impacts, counts.crossings)
+    motion.advance(end, &mut meets).expect("bounded");
+    let crossings = meets.crossings.len() as u64;
+    (motion.state(), meets.impacts, crossings)
 }
 
 #[test]
@@ -108,25 +96,14 @@ fn an_impact_at_the_very_end_of_a_period_is_counted_once() {
         scene.excitation.frequency = between(0.5, 2.0, spread(index, 1));
         scene.clearance = 1e3;
         let start = start(index, &scene);
-        let mut motion = scene.motion(start).expect("valid");
-        motion
-            .advance(Clock::at_cycle(1), &mut ())
-            .expect("bounded");
-        let there = motion.state();
+        let (there, _) = scalar_for(&scene, start, 1);
         if there.position <= start.position.max(0.5) || there.velocity <= 0.1 {
             continue;
         }
         scene.clearance = there.position;
         let (_, impacts) = one_by_one(&scene, start, 3, &mut Periods);
-        let mut counter = Meets::default();
-        let mut motion = scene.motion(start).expect("valid");
-        motion
-            .advance(Clock::at_cycle(3), &mut counter)
-            .expect("bounded");
-        assert_eq!(
-            impacts, counter.impacts,
-            "{index}: {scene:?} from {start:?}"
-        );
+        let (_, expected) = scalar_for(&scene, start, 3);
+        assert_eq!(impacts, expected, "{index}: {scene:?} from {start:?}");
     }
 }
 
@@ -139,14 +116,9 @@ fn endless_bounces_under_a_slow_drive_are_left_to_the_safe_engine() {
         position: 5.75,
         velocity: -6.6,
     };
-    let mut counter = Meets::default();
-    let mut motion = scene.motion(start).expect("valid");
-    motion
-        .advance(Clock::at_cycle(1), &mut counter)
-        .expect("bounded");
-    let (end, impacts) = one_by_one(&scene, start, 1, &mut ());
-    assert_eq!((end, impacts), (motion.state(), counter.impacts));
-    assert!(impacts > 10_000, "{impacts}");
+    let found = one_by_one(&scene, start, 1, &mut ());
+    assert_eq!(found, scalar_for(&scene, start, 1));
+    assert!(found.1 > 10_000, "{found:?}");
 }
 
 /// Writes down what it hears of the periods of one job.
