@@ -99,11 +99,19 @@ fn chatter_ends_in_rests_that_are_told_with_begin_and_end() {
 
 #[test]
 fn all_example_scenes_can_be_run_and_drawn() -> Outcome {
+    let mut seen = 0;
     for entry in fs::read_dir(docs("scenes"))? {
         let file = entry?.path().display().to_string();
-        let defect = simulate(&format!("{file} --periods 10")).number("energy/defect");
-        assert!(defect.abs() < 1e-8, "{file}");
+        let run = simulate(&format!("{file} --periods 20"));
+        let [defect, supplied] =
+            ["defect", "supplied"].map(|it| run.number(&format!("energy/{it}")));
+        assert!(defect.abs() < 1e-8_f64.min(1e-9 * supplied.abs()), "{file}");
+        let strikes = run.number("impacts/count") > 0.0;
+        let has_stop = run.at("machine/parameters/stop.model") != "none";
+        assert_eq!(strikes, has_stop, "{file}");
+        seen += 1;
     }
+    assert_eq!(seen, 18);
     Ok(())
 }
 

@@ -53,7 +53,8 @@ const START: Start = Start::new(0.0, 3.0);
 #[test]
 fn soft_stops_vanish() {
     let linear = end(&machine(0.8, 1.5, 0.0, Stop::None), START, 3.0);
-    let stops: [fn(f64) -> Stop; 4] = [
+    let stops: [fn(f64) -> Stop; 5] = [
+        |stiffness| kelvin_voigt(stiffness, Release::Clearance),
         |stiffness| kelvin_voigt(stiffness, Release::ZeroForce),
         |stiffness| preloaded(stiffness, stiffness),
         |stiffness| Stop::PiecewiseLinear {
