@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, Ratios, Units};
 use softstop_console::report::{stated, stated_machine};
-use softstop_dynamics::{orbit, zone};
+use softstop_dynamics::orbit;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -56,28 +56,6 @@ fn orbits_of_twins_are_the_same() -> Outcome {
         let hertz = twin.value(Parameter::Frequency).ok_or("no frequency")?;
         let eta = machine.value(Parameter::Frequency).ok_or("no frequency")?;
         near(hertz * std::f64::consts::TAU, eta * UNITS.frequency());
-    }
-    Ok(())
-}
-
-#[test]
-fn zones_of_twins_are_the_same() -> Outcome {
-    for machine in machines()?.into_iter().take(3) {
-        let twin = twin(&machine)?;
-        let (own, other) = (
-            zone::hysteresis(&machine.scene)?,
-            zone::hysteresis(&twin.scene)?,
-        );
-        let near = |a: f64, b: f64| assert_relative_eq!(a, b, max_relative = 1e-9);
-        near(own.frequency_g0 * UNITS.frequency(), other.frequency_g0);
-        near(own.high.frequency * UNITS.frequency(), other.high.frequency);
-        let velocity = UNITS.length() * UNITS.frequency();
-        // At a fold the motion moves as the root of a change of the frequency.
-        assert_relative_eq!(
-            own.high.point.before_impact_velocity() * velocity,
-            other.high.point.before_impact_velocity(),
-            max_relative = 1e-5
-        );
     }
     Ok(())
 }
