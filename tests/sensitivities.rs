@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::internals::{FrequencySensitivity, Polynomial};
+use softstop::internals::FrequencySensitivity;
 use softstop::{Clock, Perturbation, Ratios, Scene, Sensitivity, Simulation, Start, Stop};
 use softstop_testing::tangent::differences_of;
 use softstop_testing::{Meets, cases, is_near, machines, start_below};
@@ -12,7 +12,7 @@ const OUTPUTS: usize = 16;
 
 /// Position, velocity, acceleration, contact force, energies, time and velocity of the last impact, of the first and of the
 /// hardest one, peak and impulse of the contact force, and the work of the external force.
-fn outputs(machine: &Simulation, force: &Polynomial) -> [f64; OUTPUTS] {
+fn outputs(machine: &Simulation, force: &[f64]) -> [f64; OUTPUTS] {
     let (sample, energy) = (machine.sample(), machine.energy());
     let impact = machine.last_impact();
     let contacts = machine.contacts().expect("known");
@@ -101,14 +101,11 @@ proptest! {
         let drive = scene.excitation;
         let until = Clock::new(drive.frequency, drive.phase).after(Clock::at_cycle(0), end);
         prop_assume!(Simulation::new(&scene, start).is_ok());
-        let pushed = |width: f64| {
-            let derivatives = [force + width * towards.2, rate, bend, 0.0, 0.0, 0.0, 0.0, 0.0];
-            Polynomial::new(derivatives)
-        };
+        let pushed = |width: f64| [force + width * towards.2, rate, bend];
         let run = |width: f64| {
             let start = Start::new(start.position + width * towards.0, start.velocity + width * towards.1);
             let mut machine = Simulation::new(&scene, start).expect("valid");
-            machine.set_force(pushed(width).derivatives()).expect("finite");
+            machine.set_force(&pushed(width)).expect("finite");
             machine.advance(end).expect("bounded");
             machine
         };

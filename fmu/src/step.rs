@@ -270,7 +270,9 @@ impl Machine {
             Err(error) => return Err(error.into()),
         };
         if let Some(force) = force {
-            let work = self.simulation().work_since_checkpoint(&force)?;
+            let work = self
+                .simulation()
+                .work_since_checkpoint(force.derivatives())?;
             self.more.external.count(work);
         }
         Ok(outcome)

@@ -123,7 +123,7 @@ impl Machine {
     fn sensitivity(&self, by: &Perturbation) -> Outcome<Sensitivity> {
         let (simulation, external) = (self.simulation(), &self.more.external);
         let force = external.at(simulation.time_of_checkpoint(), simulation.scene().mass);
-        Ok(simulation.sensitivity(by, &force)?)
+        Ok(simulation.sensitivity(by, force.derivatives())?)
     }
 
     /// The exact derivatives over a step that began as `origin` and was taken in pieces.

@@ -2,6 +2,7 @@
 
 use super::arc::Arc;
 use super::clock::{Clock, Instant};
+use super::external_force::force_from_derivatives;
 use super::motion::Motion;
 use super::observer::Observer;
 use super::simulation::{Checkpoint, Simulation};
@@ -67,11 +68,13 @@ impl Simulation {
         }
     }
 
-    /// Work in J, over the stretch of [`Simulation::contacts`], of a force that has these derivatives where it begins.
+    /// Work in J, over the stretch of [`Simulation::contacts`], of a force that has these derivatives where it begins, as in
+    /// [`Simulation::set_force`]: value in N, rate in N/s, and so on.
     ///
     /// # Errors
-    /// [`MotionError`] if the stretch cannot be gone through again.
-    pub fn work_since_checkpoint(&self, force: &Polynomial) -> Result<f64, MotionError> {
+    /// Those of [`Simulation::set_force`]; [`MotionError`] if the stretch cannot be gone through again.
+    pub fn work_since_checkpoint(&self, force: &[f64]) -> Result<f64, MotionError> {
+        let force = &force_from_derivatives(force)?;
         let (motion, from) = self.motion_through_checkpoint();
         let mut watch = WorkRecorder {
             clock: *motion.clock(),

@@ -5,7 +5,8 @@ use super::saltation;
 use crate::error::MotionError;
 use crate::flow::{Polynomial, Variation};
 use crate::integrator::{
-    Arc, Crossing, CrossingKind, Impact, Instant, Motion, Observer, Simulation, Start, contact_peak,
+    Arc, Crossing, CrossingKind, Impact, Instant, Motion, Observer, Simulation, Start,
+    contact_peak, force_from_derivatives,
 };
 use crate::phases::PhaseKind;
 use crate::scene::Scene;
@@ -64,15 +65,16 @@ impl Simulation {
     /// The derivatives of the present outputs along a direction of change at the beginning of the last
     /// advance (or where [`Simulation::set_checkpoint`] was called since). Crossings are passed with their
     /// saltation matrices; at a graze, where the derivative does not exist, it is huge. `force` is the part of the external
-    /// force, by its derivatives in N there, whose work is asked for.
+    /// force whose work is asked for, by its derivatives there as in [`Simulation::set_force`]: value in N, rate in N/s, and so on.
     ///
     /// # Errors
-    /// [`MotionError`] if the stretch cannot be gone through again.
+    /// Those of [`Simulation::set_force`]; [`MotionError`] if the stretch cannot be gone through again.
     pub fn sensitivity(
         &self,
         by: &Perturbation,
-        force: &Polynomial,
+        force: &[f64],
     ) -> Result<Sensitivity, MotionError> {
+        let force = &force_from_derivatives(force)?;
         let (scene, now) = (self.scene(), self.motion());
         let mut motion = self.motion_at_checkpoint();
         let stored = energy_change(scene, &motion, by.position, by.velocity);
