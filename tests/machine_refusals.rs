@@ -73,6 +73,33 @@ fn changes_that_fit_no_machine_are_refused() -> Outcome {
     Ok(())
 }
 
+/// Time scales that lie too far apart are told by what was changed, whose limit holds.
+#[test]
+fn what_was_changed_is_named_with_its_limit() -> Outcome {
+    let good = Machine::from_toml(&refusals().good)?;
+    for (key, value) in [
+        ("mass", 1e-308),
+        ("stiffness", 1e24),
+        ("excitation.frequency", 1e-9),
+    ] {
+        let error = |value: f64| {
+            let error = good.clone().apply([(key, &*value.to_string())]).err();
+            error.map(|error| error.to_string())
+        };
+        let told = error(value).ok_or("accepted")?;
+        let words: Vec<&str> = told.split_whitespace().collect();
+        let at = words
+            .iter()
+            .position(|word| ["least", "most"].contains(word));
+        let limit: f64 = words[at.ok_or("no limit")? + 1].parse()?;
+        assert!(told.starts_with(&format!("{key} = ")), "{told}");
+        let beyond = 1e-9 * (value - limit).signum();
+        assert_eq!(error(limit * (1.0 - beyond)), None, "{told}");
+        assert!(error(limit * (1.0 + beyond)).is_some(), "{told}");
+    }
+    Ok(())
+}
+
 /// The line of a key far down in a long file; other keys are as long as they like.
 #[test]
 fn the_line_of_an_unknown_key_is_told_in_a_long_file() {

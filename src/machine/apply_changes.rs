@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::keys::SlopeKey;
 use super::misspelt_keys::with_near_word;
 use super::{Machine, UnitSystem, keys};
-use crate::error::MachineError;
+use crate::error::{MachineError, SceneError};
 use crate::scene::{Below, Parameter, Stop};
 
 impl Machine {
@@ -47,8 +47,29 @@ impl Machine {
             done.push(name);
         }
         self.tie_parameters(&ties)?;
-        self.validate()?;
+        self.validate()
+            .map_err(|error| self.error_of_changed(error, &done))?;
         self.check_texts()
+    }
+
+    /// An error of time scales that lie too far apart, with the limit of a parameter that was changed, by the names of these, in
+    /// place of that of one that was not.
+    fn error_of_changed(&self, error: SceneError, changed: &[&str]) -> SceneError {
+        let of_changed = || {
+            let changed = changed.iter().filter_map(|name| Parameter::named(name));
+            let mut errors = changed.filter_map(|it| self.scene.time_scale_error_of(it));
+            errors.next()
+        };
+        let stated = match &error {
+            SceneError::Below(error) => &**error,
+            error => error,
+        };
+        let is_own = |name: &str| name != Parameter::Frequency.name() && changed.contains(&name);
+        let of_changed = match stated {
+            SceneError::TimeScales { name, .. } if !is_own(name) => of_changed(),
+            _ => None,
+        };
+        of_changed.map_or(error, |error| self.scene_error_in_own_units(error))
     }
 
     /// The parameter of a key that is set to an expression.

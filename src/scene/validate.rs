@@ -108,7 +108,7 @@ impl Scene {
     /// Refuses springs and dampers so fast beside the drive that doubles do not resolve them.
     pub(super) fn validate_time_scales(&self) -> Result<(), SceneError> {
         let frequency = self.excitation.frequency;
-        let least = (self.stiffness / self.mass).sqrt() / MAX_SPRING_RATE;
+        let least = SPRING.least_frequency(self.stiffness / self.mass);
         if frequency < least {
             return Err(SceneError::TimeScales {
                 name: Parameter::Frequency.name(),
@@ -117,33 +117,79 @@ impl Scene {
                 limit: least,
             });
         }
-        let rate = MAX_SPRING_RATE * frequency;
-        let spring = self.mass * rate * rate;
-        let damper = self.mass * MAX_DAMPER_RATE * frequency;
-        for parameter in Parameter::ALL {
-            use Parameter as P;
-            let most = match parameter {
-                P::StopStiffness if matches!(self.stop, Stop::Hertz { .. }) => continue,
-                P::StopStiffness | P::PiercingStiffness | P::PiercingFriction => spring,
-                P::Damping | P::ContactDamping => damper,
-                _ => continue,
-            };
-            if let Some(value) = parameter.get(self) {
-                check_at_most(parameter.name(), value, most)?;
-            }
+        for (name, value, rate) in self.springs_and_dampers() {
+            check_at_most(name, value, self.mass * rate.largest_constant(frequency))?;
         }
-        match &self.stop {
-            Stop::PiecewiseLinear { loading, unloading } => {
-                check_stiffnesses("stop.loading", loading, spring)?;
-                check_stiffnesses("stop.unloading", unloading, spring)
-            }
+        match self.stop {
             Stop::Hertz {
                 stiffness,
                 exponent,
                 dissipation,
-            } => self.validate_power_law(*stiffness, *exponent, *dissipation),
+            } => self.validate_power_law(stiffness, exponent, dissipation),
             _ => Ok(()),
         }
+    }
+
+    /// Springs and dampers but the suspension and power laws: names, constants and limits of their rates.
+    fn springs_and_dampers(&self) -> Vec<(&'static str, f64, LargestRate)> {
+        use Parameter as P;
+        let parameters = P::ALL.into_iter().filter_map(|parameter| {
+            let rate = match parameter {
+                P::StopStiffness if matches!(self.stop, Stop::Hertz { .. }) => return None,
+                P::StopStiffness | P::PiercingStiffness | P::PiercingFriction => SPRING,
+                P::Damping | P::ContactDamping => DAMPER,
+                _ => return None,
+            };
+            Some((parameter.name(), parameter.get(self)?, rate))
+        });
+        let slopes: &[(&'static str, &[Slope])] = match &self.stop {
+            Stop::PiecewiseLinear { loading, unloading } => {
+                &[("stop.loading", loading), ("stop.unloading", unloading)]
+            }
+            _ => &[],
+        };
+        let slopes = slopes.iter().flat_map(|(name, slopes)| {
+            let stiffnesses = slopes.iter().map(|slope| slope.stiffness);
+            stiffnesses.map(|stiffness| (*name, stiffness, SPRING))
+        });
+        parameters.chain(slopes).collect()
+    }
+
+    /// The error of time scales that lie too far apart, as one of a parameter that was changed while all others are as they were:
+    /// the mass or the frequency is too small, or the suspension too stiff. None if the parameter is none of these, or is not.
+    pub(crate) fn time_scale_error_of(&self, changed: Parameter) -> Option<SceneError> {
+        let (value, frequency) = (changed.get(self)?, self.excitation.frequency);
+        let least = |limit_of: &dyn Fn(f64, LargestRate) -> f64| {
+            let below = self.mirrored();
+            let sides = [Some(self), below.as_ref()].into_iter().flatten();
+            let all = sides.flat_map(Self::springs_and_dampers);
+            let limits = all.map(|(_, constant, rate)| limit_of(constant, rate));
+            limits.fold(limit_of(self.stiffness, SPRING), f64::max)
+        };
+        let (bound, limit) = match changed {
+            Parameter::Mass => {
+                let mass =
+                    |constant, rate: LargestRate| constant / rate.largest_constant(frequency);
+                ("at least", least(&mass))
+            }
+            Parameter::Frequency => {
+                let frequency =
+                    |constant, rate: LargestRate| rate.least_frequency(constant / self.mass);
+                ("at least", least(&frequency))
+            }
+            Parameter::Suspension => ("at most", self.mass * SPRING.largest_constant(frequency)),
+            _ => return None,
+        };
+        let is_beyond = match bound {
+            "at least" => value < limit,
+            _ => value > limit,
+        };
+        is_beyond.then_some(SceneError::TimeScales {
+            name: changed.name(),
+            value,
+            bound,
+            limit,
+        })
     }
 
     /// Refuses a power law that takes all of the energy, or of the speed, of a motion within too small a depth.
@@ -180,9 +226,32 @@ pub const MAX_SPRING_RATE: f64 = 1e7;
 /// back leaves so slowly that only its position tells when. Up to 1e6 eight digits hold.
 pub const MAX_DAMPER_RATE: f64 = 1e9;
 
-fn check_stiffnesses(name: &'static str, slopes: &[Slope], most: f64) -> Result<(), SceneError> {
-    let each = |slope: &Slope| check_at_most(name, slope.stiffness, most);
-    slopes.iter().try_for_each(each)
+/// The largest rate of a spring or damper of unit mass, in units of the drive's frequency; its constant is a power of the rate.
+#[derive(Clone, Copy)]
+struct LargestRate {
+    rate: f64,
+    power: i32,
+}
+
+const SPRING: LargestRate = LargestRate {
+    rate: MAX_SPRING_RATE,
+    power: 2,
+};
+const DAMPER: LargestRate = LargestRate {
+    rate: MAX_DAMPER_RATE,
+    power: 1,
+};
+
+impl LargestRate {
+    /// The largest constant for one unit of mass, at a frequency of the drive.
+    fn largest_constant(self, frequency: f64) -> f64 {
+        (self.rate * frequency).powi(self.power)
+    }
+
+    /// The least frequency of the drive with this constant for one unit of mass.
+    fn least_frequency(self, constant: f64) -> f64 {
+        constant.powf(1.0 / f64::from(self.power)) / self.rate
+    }
 }
 
 fn check_at_most(name: &'static str, value: f64, most: f64) -> Result<(), SceneError> {
