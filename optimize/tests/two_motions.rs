@@ -72,6 +72,29 @@ fn a_margin_of_the_clearance_is_that_of_the_own_motion() -> Outcome {
     Ok(())
 }
 
+/// Within a budget that zones of many clearances for each motion would exceed.
+#[test]
+fn a_margin_of_the_clearance_is_where_the_fold_comes_down_to_the_motion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let task = folder.path().join("task.toml");
+    let text = "machine = \"loaded\"\n[vary]\nclearance = [5.0, 20.0]\n[require]\nclearance_margin_sn = 0.3\n";
+    fs::write(&task, text)?;
+    let config = format!("--config={}", task.display());
+    let report = OPTIMIZE.json_into(
+        &folder.path().join("out"),
+        &[&config, "--evaluations=100", "--budget=2"],
+    );
+    let margin = required(&report, "clearance_margin_sn");
+    let [frequency, clearance] = ["frequency", "clearance"].map(|name| number(&report, name));
+    let fold = |share: f64| {
+        let clearance = format!("clearance={}", clearance + share * margin);
+        let zone = SOFTSTOP.json(&["zone", "loaded", "--set", &clearance]);
+        zone["frequency_sn"].as_f64().ok_or("a fold")
+    };
+    assert!(margin >= 0.3 && fold(1.0 - 1e-6)? > frequency && fold(1.0 + 1e-6)? < frequency);
+    Ok(())
+}
+
 #[test]
 fn what_is_sought_decides_between_two_motions() {
     for (objective, velocity, fold) in [

@@ -92,6 +92,9 @@ impl Figure {
     pub const fn unbounded_reason(self) -> &'static str {
         match self {
             Self::FrequencyPd => "no flip on this branch",
+            Self::ClearanceSn => {
+                "no fold on this branch, and no other end up to 32 times the clearance"
+            }
             Self::ClearancePd => {
                 "no flip on this branch, and no other end down to a quarter of the clearance"
             }

@@ -1,15 +1,10 @@
 //! Figures of one motion, and whether they are as a task requires.
 
-use std::convert::Infallible;
-use std::slice;
-
-use softstop::internals::narrow_root;
 use softstop::{Machine, MotionError, Parameter, Scene};
-use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::zone::{find_end_along, find_zones, free_amplitude, loss_of_stability};
+use softstop_dynamics::zone::{find_end_along, free_amplitude, loss_of_stability};
 use softstop_dynamics::{CycleMetrics, Orbit, ParameterFamily, Zone};
 
 use super::cost::{value_of_motion, value_of_orbit};
@@ -61,16 +56,19 @@ impl<'a> ZoneMotion<'a> {
         match figure {
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
-            Figure::FrequencySn | Figure::ClearanceSn if self.ends_within_zone() => match figure {
-                Figure::FrequencySn => self.own_end() - frequency,
-                _ => self.along(Parameter::Clearance, Direction::Up, TestFunction::Fold),
-            },
+            Figure::FrequencySn if self.ends_within_zone() => self.own_end() - frequency,
             Figure::FrequencySn | Figure::ClearanceSn
-                if !self.zone.high.is_critical(TestFunction::Fold) =>
+                if !self.ends_within_zone() && !self.zone.high.is_critical(TestFunction::Fold) =>
             {
                 f64::INFINITY
             }
             Figure::FrequencySn => self.zone.high.frequency - frequency,
+            Figure::ClearanceSn if self.is_at_fold() => 0.0,
+            Figure::ClearanceSn => self.along(
+                (Parameter::Clearance, WIDER),
+                Direction::Up,
+                TestFunction::Fold,
+            ),
             // At the fold itself there is no way down the stable branch to a flip.
             Figure::FrequencyPd | Figure::ClearancePd if self.is_at_fold() => f64::NAN,
             Figure::FrequencyPd => {
@@ -84,10 +82,11 @@ impl<'a> ZoneMotion<'a> {
                 let scene = &self.orbit.scene;
                 scene.least_clearance() - free_amplitude(scene, frequency)
             }
-            Figure::ClearanceSn => self.below_fold(frequency),
-            Figure::ClearancePd => {
-                self.along(Parameter::Clearance, Direction::Down, TestFunction::Flip)
-            }
+            Figure::ClearancePd => self.along(
+                (Parameter::Clearance, NARROWER),
+                Direction::Down,
+                TestFunction::Flip,
+            ),
             _ => f64::NAN,
         }
     }
@@ -125,50 +124,22 @@ impl<'a> ZoneMotion<'a> {
         is_at_end || !self.orbit.is_stable()
     }
 
-    /// Distance in m to the clearance at which the fold comes down to the motion's frequency, or up to which there is a
-    /// zone; or as far as is looked.
-    fn below_fold(&self, frequency: f64) -> f64 {
-        let from = self.orbit.scene.clearance;
-        let above = |clearance: f64| {
-            let mut scene = Scene::clone(&self.orbit.scene);
-            scene.clearance = clearance;
-            let scenes = slice::from_ref(&scene);
-            let zone = find_zones(self.zone.kind, scenes, &interrupt::watch).remove(0);
-            let zone = zone.map(|zone| zone.on_range(self.zone.range));
-            zone.map_or(-frequency, |zone| zone.high.frequency - frequency)
-        };
-        let (mut low, mut high) = ((from, self.zone.high.frequency - frequency), None);
-        let mut step = WIDER * from;
-        for _ in 0..REACH {
-            let next = low.0 + step;
-            step *= 2.0;
-            match above(next) {
-                value if value > 0.0 => low = (next, value),
-                value => {
-                    high = Some((next, value));
-                    break;
-                }
-            }
-        }
-        let Some(high) = high else {
-            return low.0 - from;
-        };
-        let width = 4.0 * f64::EPSILON * from;
-        let Ok((last, _)) = narrow_root(low, high, width, |at| Ok::<_, Infallible>(above(at)));
-        last - from
-    }
-
     /// Distance along a parameter, in SI units, to where the motion is lost, by this or by anything else; infinite if it
-    /// is not, NaN if it cannot be followed.
-    fn along(&self, parameter: Parameter, direction: Direction, test: TestFunction) -> f64 {
+    /// is not within a factor `reach`, NaN if it cannot be followed.
+    fn along(
+        &self,
+        (parameter, reach): (Parameter, f64),
+        direction: Direction,
+        test: TestFunction,
+    ) -> f64 {
         let scene = &self.orbit.scene;
         let Some(from) = parameter.get(scene) else {
             return f64::NAN;
         };
         let family =
             ParameterFamily::new(Scene::clone(scene), [parameter]).map_err(OrbitError::from);
-        let end =
-            family.and_then(|family| find_end_along(&family, from, self.orbit, direction, test));
+        let end = family
+            .and_then(|family| find_end_along(&family, (from, reach), self.orbit, direction, test));
         match end {
             Ok(Some(lost)) => (lost - from).abs(),
             Ok(None) => f64::INFINITY,
@@ -177,9 +148,9 @@ impl<'a> ZoneMotion<'a> {
     }
 }
 
-/// First step in search of the clearance of a fold, in units of the clearance, and how many of them, each twice the one before.
-const WIDER: f64 = 0.5;
-const REACH: usize = 6;
+/// Largest factors of the clearance, up and down, within which it is looked where a motion is lost.
+const WIDER: f64 = 32.0;
+const NARROWER: f64 = 4.0;
 /// Share of the zone within which the fold is too near to follow the stable branch away from it.
 const AT_FOLD: f64 = 1e-6;
 

@@ -26,48 +26,50 @@ pub fn loss_of_stability(
     let from = orbit.scene.excitation.frequency;
     let family = FrequencyFamily(&orbit.scene);
     let continuation = Continuation::new(&family, 1);
-    let branch = follow_stable(&continuation, from, orbit, direction)?;
+    let branch = follow_stable(&continuation, (from, MAX_LOSS_FACTOR), orbit, direction)?;
     let found = locate_loss(&continuation, &branch, test)?;
     // At a grazing the test jumps over zero.
     Ok(found.filter(|point| !test.jumps_at(&point.monodromy)))
 }
 
 /// Finds the value of a family's parameter at which a stable orbit, which has the value `from`, loses its stability: where the
-/// test function passes zero, or else the last value up to which the orbit could be followed. None if it stays stable within the
-/// range that is searched.
+/// test function passes zero, or else the last value up to which the orbit could be followed. None if it stays stable up to `reach`,
+/// the largest factor, up or down from the orbit's own value, within which it is followed.
 ///
 /// # Errors
 /// As [`loss_of_stability`].
 pub fn find_end_along(
     family: &dyn Family,
-    from: f64,
+    (from, reach): (f64, f64),
     orbit: &Orbit,
     direction: Direction,
     test: TestFunction,
 ) -> Result<Option<f64>, OrbitError> {
     let continuation = Continuation::new(family, 1);
-    let branch = follow_stable(&continuation, from, orbit, direction)?;
+    let branch = follow_stable(&continuation, (from, reach), orbit, direction)?;
     if let Some(lost) = locate_loss(&continuation, &branch, test)? {
         return Ok(Some(lost.parameter));
     }
-    let last = branch.last().filter(|point| is_in_reach(point, from));
+    let last = branch
+        .last()
+        .filter(|point| is_in_reach(point, (from, reach)));
     Ok(last.map(|point| point.parameter))
 }
 
-/// True if the parameter at a point lies within [`MAX_LOSS_FACTOR`] of the orbit's own value.
-fn is_in_reach(point: &BranchPoint, from: f64) -> bool {
-    (1.0 / MAX_LOSS_FACTOR..=MAX_LOSS_FACTOR).contains(&(point.parameter / from))
+/// True if the parameter at a point lies within a factor `reach` of the orbit's own value.
+fn is_in_reach(point: &BranchPoint, (from, reach): (f64, f64)) -> bool {
+    (1.0 / reach..=reach).contains(&(point.parameter / from))
 }
 
 /// Follows the branch of an orbit as long as it is stable, to the first unstable point.
 fn follow_stable(
     continuation: &Continuation<'_>,
-    from: f64,
+    (from, reach): (f64, f64),
     orbit: &Orbit,
     direction: Direction,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
     continuation.follow_points(orbit, from, direction, MAX_LOSS_POINTS, |point| {
-        stop_if(!point.is_stable() || !is_in_reach(point, from))
+        stop_if(!point.is_stable() || !is_in_reach(point, (from, reach)))
     })
 }
 
