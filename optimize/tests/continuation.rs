@@ -264,3 +264,29 @@ fn ranges_end_where_no_machine_is_beyond() {
     ]);
     assert_eq!(report.at("branches/0/ends/0"), "the range ends");
 }
+
+/// A tooth between two stops, which touches neither beyond the last grazing: any place in the backlash is an orbit.
+#[test]
+fn a_branch_ends_where_a_free_mass_touches_nothing() -> Outcome {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/rattle.toml");
+    let wide = "--set clearance=1.5 --set stop.below.clearance=1.5 --set contact.damping=20";
+    let line = format!(
+        "continue {scene} {wide} --orbit 2/1 --parameter excitation.frequency --from 0.2 --to 8"
+    );
+    let report = SOFTSTOP.report(&line);
+    let mut table = csv::Reader::from_path(report.path("branches.csv"))?;
+    let rows: Vec<csv::StringRecord> = table.records().collect::<Result<_, _>>()?;
+    let free = rows.iter().filter(|row| &row[5] == "0");
+    assert!(
+        free.clone().all(|row| &row[12] == "G"),
+        "{:?}",
+        free.collect::<Vec<_>>()
+    );
+    let ends = report.list("branches/0/ends");
+    assert!(
+        ends.iter()
+            .any(|end| end.as_str() == Some("the orbit grazes")),
+        "{ends:?}"
+    );
+    Ok(())
+}

@@ -252,6 +252,12 @@ impl<'a> Continuation<'a> {
             }
             (None, None) => (self.point_at(to)?, closes.then_some(BranchEnd::Closed)),
         };
+        let special = specials.last().map(|special| &special.point);
+        if let Some(before) = special.or(way.points.last())
+            && [before, &last].map(lies_beside_others) == [true; 2]
+        {
+            return Err(OrbitError::NotIsolated);
+        }
         let (low, high) = limits.range;
         specials.retain(|special| (low..=high).contains(&special.point.parameter));
         way.points
@@ -260,4 +266,9 @@ impl<'a> Continuation<'a> {
         way.points.push(last);
         Ok(end)
     }
+}
+
+/// True if a point may be one of many that lie side by side at one value of the parameter, as a fold is, too, which is alone.
+fn lies_beside_others(point: &BranchPoint) -> bool {
+    TestFunction::Fold.vanishes_at(&point.monodromy)
 }

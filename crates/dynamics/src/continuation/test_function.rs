@@ -43,6 +43,12 @@ impl TestFunction {
         self.scaled_value(monodromy).abs() > NEAR
     }
 
+    /// True if the test vanishes to rounding: at a bifurcation; that for a fold also all along orbits that lie side by side, as those
+    /// of a free mass, which nothing brings back to where it was.
+    pub(crate) fn vanishes_at(self, monodromy: &Monodromy) -> bool {
+        self.scaled_value(monodromy).abs() <= TEST_ROUNDING
+    }
+
     /// True if no test changes by more than `most` between two orbits.
     pub(crate) fn change_little(from: &Monodromy, to: &Monodromy, most: f64) -> bool {
         let change = |test: &Self| (test.scaled_value(from) - test.scaled_value(to)).abs();
