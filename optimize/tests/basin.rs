@@ -50,6 +50,26 @@ fn near_grazing_nearly_all_starts_lead_to_impacts() {
     report.shows("certainty.svg", &[]);
 }
 
+/// Two motions with one impact coexist at the sixth place.
+#[test]
+fn the_certainty_along_a_zone_is_that_of_its_own_motion() -> Outcome {
+    let machine = format!(
+        "{}/tests/tasks/two_motions.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let report = SOFTSTOP.report(&format!("basin {machine} --along-zone 7 --size 30"));
+    let motions = report.list("places/5/motions").iter();
+    let single = motions.filter(|it| it["z"] == "1");
+    let shares: Vec<f64> = single.filter_map(|it| it["share"].as_f64()).collect();
+    let certainty = report.number("places/5/certainty");
+    let [soft, hard] = shares[..] else {
+        panic!("{shares:?}");
+    };
+    assert!(soft > 0.0 && certainty > 0.0);
+    assert_near(certainty, hard, MOTION);
+    Ok(())
+}
+
 #[test]
 fn the_zone_takes_the_box_of_the_machine() {
     let report = |line: &str| SOFTSTOP.report(&format!("basin --size 4 {line}"));

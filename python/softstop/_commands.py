@@ -383,7 +383,9 @@ def certainty(
     size: int | None = None, plane: str | None = None, at: float | None = None, transient: int | None = None,
     longest: int | None = None, budget: int | None = None, progress: bool = True,
 ) -> Certainty:
-    """The establishing certainty of z = 1, the share of initial states that lead to it, along the hysteresis zone.
+    """The establishing certainty of z = 1 along the hysteresis zone: the share of initial states that lead to the zone's motion.
+
+    Where two motions coexist in the zone, it is that of the harder one.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ use softstop_console::machine::PaperMachine;
 use softstop_console::progress::Progress;
 use softstop_draw::{Chart, Layer, Mark, Stroke, style};
 use softstop_dynamics::basin::{BasinOptions, CertaintyAtPlace, establishing_certainties};
-use softstop_dynamics::{Grid, Regime, zone};
+use softstop_dynamics::{Grid, zone};
 use softstop_explore::basin::certainty::layers;
 
 /// Clearances.
@@ -125,8 +125,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 
 /// Integrity factor: radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
 fn integrity(at: &CertaintyAtPlace) -> f64 {
-    let ball = at.basins.largest_ball_of(Regime::ONE);
-    ball.map_or(0.0, |ball| ball.radius)
+    at.largest_ball().map_or(0.0, |ball| ball.radius)
 }
 
 fn motions(at: &CertaintyAtPlace) -> String {

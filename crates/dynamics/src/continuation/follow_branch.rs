@@ -14,7 +14,9 @@ use super::locate_zero::locate_zero;
 use super::period_map::PeriodMap;
 use super::stepper::Stepper;
 use super::stroboscopic_section::SectionChange;
-use super::{BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint};
+use super::{
+    BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint, TestFunction,
+};
 use crate::direction::Direction;
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;

@@ -37,8 +37,8 @@ Examples:
       over drive angle and velocity, from position 0
   softstop basin --along-zone 21 --size 200
       establishing certainty of z = 1 at 21 places from g0 to s_SN: the share of initial states
-      that lead to it, for the same plane at all of them: that of the machine at its own frequency,
-      wider if motions of the zone lie outside it
+      that lead to it (where two coexist, to the harder one), for the same plane at all of them: that
+      of the machine at its own frequency, wider if motions of the zone lie outside it
   softstop basin loaded --parameter eta --from 1 --to 1.35 --steps 71 --size 100
       all attractors along eta: each keeps its number from value to value while it lasts
   softstop basin docs/scenes/rigid.toml --size 400 --format json

@@ -9,7 +9,7 @@ use softstop_console::record::{Record, below};
 use softstop_console::report::{MotionName, stated_machine};
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::basin::{AxisQuantity, BasinBall, CertaintyAtPlace};
-use softstop_dynamics::{Axis, Basins, Grid, Regime};
+use softstop_dynamics::{Axis, Basins, Grid};
 
 /// A row of `basin.csv`.
 pub(super) type BasinRow<'a> = (&'a Attractor, Option<BasinBall>);
@@ -54,11 +54,11 @@ pub(super) type CertaintyRow<'a> = (&'a Machine, &'a CertaintyAtPlace);
 pub(super) fn places<'a>() -> [Column<CertaintyRow<'a>>; 7] {
     columns! { CertaintyRow<'a>, it;
         "place" [None] Fixed(4), "0 at g0, 1 at s_SN" => it.1.place;
-        "frequency" [Frequency] Fixed(6), "of the drive" => it.0.to_own(Dimension::Frequency, it.1.frequency);
-        "certainty" [None] Fixed(5), "share of cells that lead to z = 1" => it.1.certainty;
+        "frequency" [Frequency] Fixed(6), "of the drive, in Hz where the machine states it so" => it.0.to_own(Dimension::Frequency, it.1.frequency);
+        "certainty" [None] Fixed(5), "share of cells that lead to the zone's z = 1 motion, the harder of two" => it.1.certainty;
         "certainty_low" [None] Fixed(5), "lower end of its 95 % interval" => it.1.interval[0];
         "certainty_high" [None] Fixed(5), "upper end of it" => it.1.interval[1];
-        "integrity" [None] Fixed(4), "radius of the largest ball, in half axes" => it.1.basins.largest_ball_of(Regime::ONE).map(|it| it.radius);
+        "integrity" [None] Fixed(4), "radius of the largest ball, in half axes" => it.1.largest_ball().map(|it| it.radius);
         "motions" [None], "z or kind of all motions, and their shares" => motions(it.1);
     }
 }
