@@ -61,6 +61,15 @@ fn zone_of_the_paper() {
     assert_eq!([&own[0]["from_by"], &own[0]["to_by"]], ["flip", "fold"]);
 }
 
+/// Nothing strikes, and nothing is refused.
+#[test]
+fn beyond_all_motions_there_is_no_zone_and_no_stretch() {
+    let zone = SOFTSTOP.value("zone --set rho=30");
+    let why = zone["no_zone"].as_str().expect("why");
+    assert!(why.contains("clearance = 30"), "{why}");
+    assert_eq!(zone["stretches"], serde_json::json!([]));
+}
+
 /// A motion that always impacts grazes nothing: no g0, and stretches all the same.
 #[test]
 fn without_a_grazing_boundary_stretches_are_listed() -> Outcome {

@@ -34,7 +34,8 @@ and the fold s_SN, where the z = 1 motion ends, both motions exist; the start de
 one is seen. The drive frequency plays no part here.
 
 Besides, all stretches of frequency with a stable z = 1 motion are listed, those below g0 and isolas among
-them: where each begins and ends, by what, and its hardest impact. A zone with several folds has several.";
+them: where each begins and ends, by what, and its hardest impact. A zone with several folds has several.
+Of a machine without a zone it is told why there is none (JSON: no_zone), and the stretches, if any.";
 
 /// Arguments of `softstop zone`.
 #[derive(Debug, Args)]
@@ -58,10 +59,7 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     })?;
     let zone = zone.map_err(|error| error.in_units_of(&machine));
     match zone {
-        Err(error @ ZoneError::NoGrazing { .. }) if all.is_empty() => {
-            Err(Failure::usage(error.to_string()))
-        }
-        Err(error) if all.is_empty() => {
+        Err(ZoneError::Orbit(error)) if all.is_empty() => {
             let place = format!("no hysteresis zone found of {}", title(&machine));
             Err(anyhow!(error).context(place).into())
         }
