@@ -119,4 +119,11 @@ fn scenes_without_parameters_for_them() {
     let empty = too_many(vec![], vec![]);
     let error = StartValues::from_scene(&empty, START);
     assert_eq!(error, Err(NotServed::Scene(SceneError::NoSlope)));
+    let rigid = scene(Stop::Rigid { restitution: 0.5 }, None);
+    let beyond = Start::new(2.0 * rigid.clearance, 0.0);
+    let error = StartValues::from_scene(&rigid, beyond).expect_err("beyond the stop");
+    assert!(
+        error.to_string().starts_with("initial.position = "),
+        "{error}"
+    );
 }

@@ -40,8 +40,8 @@ pub enum NotServed {
         range: String,
     },
     /// A start from which the machine cannot move.
-    #[error(transparent)]
-    Start(#[from] MotionError),
+    #[error("initial.{0}")]
+    Start(MotionError),
 }
 
 /// A list of slopes: its name in a machine file, and the slot of their number, which their deflections and then their
@@ -104,7 +104,7 @@ impl StartValues {
         }
         values.set(slot::INITIAL_POSITION, start.position);
         values.set(slot::INITIAL_VELOCITY, start.velocity);
-        Simulation::new(scene, start)?;
+        Simulation::new(scene, start).map_err(NotServed::Start)?;
         values.within_ranges()
     }
 
