@@ -129,7 +129,8 @@ impl<'a> StudyView<'a> {
         let columns = &manifest.columns;
         let column = match &arguments.of {
             None => {
-                let can_be_drawn = |it: &&Column| over.len() == 2 || it.summary.words.is_empty();
+                let can_be_drawn =
+                    |it: &&ColumnReport| over.len() == 2 || it.summary.words.is_empty();
                 columns.iter().find(can_be_drawn).or(columns.first())
             }
             Some(name) => columns.iter().find(|column| column.name == *name),
