@@ -75,17 +75,11 @@ fn a_margin_of_the_clearance_is_that_of_the_own_motion() -> Outcome {
 /// Within a budget that zones of many clearances for each motion would exceed.
 #[test]
 fn a_margin_of_the_clearance_is_where_the_fold_comes_down_to_the_motion() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let task = folder.path().join("task.toml");
-    let text = "machine = \"loaded\"\n[vary]\nclearance = [5.0, 20.0]\n[require]\nclearance_margin_sn = 0.3\n";
-    fs::write(&task, text)?;
-    let config = format!("--config={}", task.display());
-    let report = OPTIMIZE.json_into(
-        &folder.path().join("out"),
-        &[&config, "--evaluations=100", "--budget=2"],
-    );
+    let task = "machine = \"loaded\"\n[vary]\nclearance = [5.0, 20.0]\n[require]\nclearance_margin_sn = 0.3\n";
+    let arguments = "FILE --evaluations=100 --budget=2";
+    let report = OPTIMIZE.report_of("task.toml", task, arguments);
     let margin = required(&report, "clearance_margin_sn");
-    let [frequency, clearance] = ["frequency", "clearance"].map(|name| number(&report, name));
+    let [frequency, clearance] = ["frequency", "clearance"].map(|name| report.number(name));
     let fold = |share: f64| {
         let clearance = format!("clearance={}", clearance + share * margin);
         let zone = SOFTSTOP.json(&["zone", "loaded", "--set", &clearance]);
