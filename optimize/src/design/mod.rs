@@ -298,7 +298,6 @@ impl Problem {
         zone: &Zone,
         tolerated: Option<&BoxWindow>,
     ) -> Result<Interval, Infeasible> {
-        let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
         let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
         let mut low = self.margin.max(zone.place_of(si(self.frequency.low)));
         let mut high = (1.0 - self.margin).min(zone.place_of(si(self.frequency.high)));
@@ -311,9 +310,14 @@ impl Problem {
         if low <= high {
             return Ok(Interval { low, high });
         }
+        let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
+        let unit = match self.machine.unit(Dimension::Frequency) {
+            "" => String::new(),
+            unit => format!(" {unit}"),
+        };
         let reason = format!(
-            "bounds ({}), margin and tolerances leave no frequency in the zone {:.6} to {:.6}: it would have to be \
-             at least {:.6} and at most {:.6}",
+            "bounds ({}{unit}), margin and tolerances leave no frequency in the zone {:.6} to {:.6}{unit}: it would have to be \
+             at least {:.6} and at most {:.6}{unit}",
             self.frequency,
             own(zone.low.frequency),
             own(zone.high.frequency),

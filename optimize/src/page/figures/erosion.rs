@@ -1,6 +1,6 @@
 //! The basin of z = 1 along the zone.
 
-use softstop::Dimension;
+use softstop::{Dimension, Parameter};
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Panel, Stroke, style};
@@ -57,7 +57,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         false => "",
     };
     let caption = format!(
-        "Share of the initial states that lead to the design's kind of motion, with its 95 % interval, and its local integrity \
+        "Share of the initial states that lead to the z = 1 motion of the design's zone, with its 95 % interval, and its local integrity \
          measure: the radius of the largest ball about the motion inside its basin. Starts: {STARTS} at each place, in the box that \
          commands take starts from{widened}: positions {}, velocities {}.",
         ends(Dimension::Length, profile.region.position),
@@ -75,9 +75,10 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
             it.radius
         ]
     });
+    let frequency = machine.label_of(Parameter::Frequency);
     let heads = [
         "place",
-        "frequency",
+        &frequency,
         "share",
         "share_low",
         "share_high",
