@@ -5,7 +5,7 @@ use pulp::Simd;
 
 use super::contact_series::{ContactSeries, DEGREE, Terms, solve_series};
 use super::lanes::{Lanes, Mask};
-use super::local_taylor::value_and_rate;
+use super::polynomial::value_and_rate;
 
 /// Most halvings of a Taylor step until the release in it is decided; then the safe engine decides.
 const MAX_HALVINGS: usize = 6;

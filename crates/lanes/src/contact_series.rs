@@ -14,7 +14,7 @@ use pulp::Simd;
 use super::contact_state::ContactState;
 use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
-use super::local_taylor::value_and_rate;
+use super::polynomial::value_and_rate;
 use softstop::internals::RECIPROCALS;
 
 /// Degree of the power series of a contact in the regularised time sigma; odd.

@@ -9,6 +9,7 @@ use super::lane_laws::Laws;
 use super::lanes::{Lanes, Mask, Pair};
 use super::local_taylor;
 use super::nearby_zero::nearby_zero;
+use super::polynomial::value_and_rate;
 use super::sine_cosine::SMALL_ANGLE_DEGREE;
 use super::window_ahead::WindowAhead;
 use super::window_guard::WindowGuard;
@@ -159,7 +160,7 @@ impl<S: Simd, const N: usize> WindowGuard<S, N> {
             goal.at = open.choose(next, goal.at);
             let tops = goal.humps & zeros.sure;
             if tops.any() {
-                let height = local_taylor::value_and_rate(&local, zeros.time).0;
+                let height = value_and_rate(&local, zeros.time).0;
                 self.search_from_maximum(left, tops, height, ahead.span, &mut goal);
             }
         }

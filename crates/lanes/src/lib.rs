@@ -86,6 +86,7 @@ mod nearby_zero;
 mod phase_constants;
 mod phase_guards;
 mod phase_order;
+mod polynomial;
 mod post_impact_state;
 mod record_returns;
 mod return_bounds;

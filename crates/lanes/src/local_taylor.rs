@@ -98,21 +98,6 @@ pub(super) fn curvature_at<S: Simd, const N: usize>(
     at.mul_add(third, local[2] + local[2])
 }
 
-/// Value and first derivative of a Taylor polynomial, or of another power series, at `at`.
-#[inline(always)]
-pub(super) fn value_and_rate<S: Simd, const N: usize, const T: usize>(
-    series: &[Lanes<S, N>; T],
-    at: Lanes<S, N>,
-) -> Pair<S, N> {
-    let mut value = series[T - 1];
-    let mut rate = at.like(0.0);
-    for k in (0..T - 1).rev() {
-        rate = rate.mul_add(at, value);
-        value = value.mul_add(at, series[k]);
-    }
-    (value, rate)
-}
-
 /// Position and velocity a time `moment` after the instant at which the derivatives of the motion are given.
 #[inline(always)]
 pub(super) fn position_and_velocity_at<S: Simd, const N: usize>(

@@ -4,7 +4,8 @@ use pulp::Simd;
 
 use super::lane_laws::WINDOW_ANGLE;
 use super::lanes::{Lanes, Mask};
-use super::local_taylor::{LocalTaylor, curvature_at, value_and_rate};
+use super::local_taylor::{LocalTaylor, curvature_at};
+use super::polynomial::value_and_rate;
 
 /// Longest time from a Taylor polynomial's centre to a zero that is used, times the fastest rate of the motion, in rad.
 const MAX_ZERO_ANGLE: f64 = 0.02;

@@ -4,7 +4,7 @@ use anyhow::Result;
 use rayon::ThreadPool;
 use serde::Serialize;
 use softstop::{Ratios, Scene, SceneError};
-use softstop_console::failure::{Failure, check_interrupt};
+use softstop_console::failure::check_interrupt;
 use softstop_console::interrupt;
 use softstop_dynamics::zone::hysteresis_batch;
 
@@ -60,7 +60,7 @@ impl Grid {
 /// Computes the zones of machines on the threads of `one`, and counts those that there are.
 ///
 /// # Errors
-/// [`Failure::Interrupted`] after Ctrl-C.
+/// [`Failure::Interrupted`](softstop_console::failure::Failure::Interrupted) after Ctrl-C.
 pub fn count(scenes: &[Scene], one: &ThreadPool) -> Result<Count> {
     let mut count = Count::default();
     for block in scenes.chunks(BLOCK) {
