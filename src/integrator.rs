@@ -2,6 +2,7 @@
 
 mod advance;
 mod arc;
+mod begin_arc;
 mod bounce_train;
 mod checkpoint;
 mod clock;

@@ -136,6 +136,13 @@ pub struct Surface {
     pub is_far_side: bool,
 }
 
+impl Surface {
+    /// True if a position is on this surface or beyond.
+    pub(crate) fn is_reached(&self, position: f64) -> bool {
+        self.side * position >= self.side * self.position
+    }
+}
+
 /// All phases that a scene can reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phases {

@@ -70,7 +70,7 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: ScanNode, until: f64
             }
             if let Some((next, bound)) = doubtful {
                 let (left, right) = (&node, &next);
-                match scan.single_rise_in_window(&ScanWindow { left, right, bound }) {
+                match scan.first_crossing_of_only_guard(&ScanWindow { left, right, bound }) {
                     Some(Some(found)) => return NextEvent::Crossing(found),
                     Some(None) => {
                         node = next;
@@ -135,7 +135,10 @@ impl ArcScan<'_> {
 
     /// The first crossing in a scan window of the only guard, which depends on the position alone: `Some(None)` if
     /// there is none, `None` if that takes a closer search.
-    fn single_rise_in_window(&self, window: &ScanWindow<'_>) -> Option<Option<FoundCrossing>> {
+    fn first_crossing_of_only_guard(
+        &self,
+        window: &ScanWindow<'_>,
+    ) -> Option<Option<FoundCrossing>> {
         let [guard] = self.guards else {
             return None;
         };
@@ -148,14 +151,14 @@ impl ArcScan<'_> {
         let ends = GuardEnds::of_window(guard, window).points(span);
         let bound = guard.position.abs() * bound;
         let rounding = guard.rounding_at(left.position, left.velocity, 0.0);
-        self.single_rise((0, guard), (left, right), ends, (bound, rounding))
+        self.first_crossing_of_guard((0, guard), (left, right), ends, (bound, rounding))
     }
 
     /// The first crossing of one guard between two nodes, by its values there and bounds on its fourth derivative and
     /// its rounding: `Some(None)` if there is none, `None` if more than one rise cannot be ruled out. The guard does
     /// not depend on the forcing.
     #[inline]
-    fn single_rise(
+    fn first_crossing_of_guard(
         &self,
         (index, guard): (usize, &Guard),
         nodes: (&ScanNode, &ScanNode),
@@ -276,7 +279,7 @@ impl ArcScan<'_> {
                     (&left.node, &right.node),
                     (bound, left.guard_rounding(guard)),
                 );
-                self.single_rise((index, guard), nodes, ends.points(span), doubt)
+                self.first_crossing_of_guard((index, guard), nodes, ends.points(span), doubt)
             });
             let Some(rise) = single.flatten() else {
                 return self.search_polynomial(left, right, bounds);

@@ -93,7 +93,7 @@ impl GuardPolynomial<'_> {
         })
     }
 
-    /// The guard polynomial and its derivative at a place.
+    /// Value and derivative of the guard polynomial at a time in s since its centre.
     pub fn point_at(&self, at: f64) -> GuardPoint {
         let (value, rate) = value_and_rate(self.coefficients, at);
         GuardPoint { at, value, rate }

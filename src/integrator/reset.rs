@@ -79,7 +79,7 @@ impl Motion {
         }
     }
 
-    /// State, mode and kind right after a crossing out of a phase.
+    /// The reset at a crossing out of a phase: state and mode right after it, and the kind of the crossing.
     fn reset_out_of(
         &self,
         phase: PhaseId,

@@ -141,7 +141,7 @@ pub(super) fn is_expression(text: &str) -> bool {
         || Parameter::ALL.iter().any(is_parameter)
 }
 
-/// True if a key is the letter of a ratio of what machines in SI units have.
+/// True if a key is the letter of a ratio, such as eta or rho, that stands for a parameter which machines in SI units state.
 fn is_ratio(key: &str, parameter: Parameter) -> bool {
     let about = parameter.about();
     let is_quotient = about.dimension != Dimension::Angle && !parameter.is_unit();

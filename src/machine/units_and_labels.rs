@@ -15,7 +15,8 @@ impl Machine {
         value * self.own_unit_in_si(dimension)
     }
 
-    /// The error of a scene; of time scales too far apart with the numbers in the units of this machine.
+    /// An error of the scene, whose numbers are in SI units, as this machine states it: that of time scales that lie too far apart,
+    /// the only one with numbers, in its own units.
     pub(super) fn scene_error_in_own_units(&self, error: SceneError) -> SceneError {
         match error {
             SceneError::TimeScales {

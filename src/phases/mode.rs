@@ -108,11 +108,6 @@ impl Surface {
         };
         Sticking { forward, backward }
     }
-
-    /// True if a position is on this surface or beyond.
-    pub(crate) fn is_reached(&self, position: f64) -> bool {
-        self.side * position >= self.side * self.position
-    }
 }
 
 impl Phases {

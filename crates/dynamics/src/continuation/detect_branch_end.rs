@@ -7,7 +7,8 @@ use super::period_map::PeriodMap;
 use super::stepper::Stepper;
 use super::stroboscopic_shooting::Shooting;
 use super::{
-    BorderCollision, BranchEnd, BranchLimits, Continuation, SpecialKind, SpecialPoint, TestFunction,
+    BorderCollision, BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint,
+    TestFunction,
 };
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, SAME};
@@ -191,4 +192,9 @@ impl Continuation<'_> {
         let mut grazes = grazing_test.grazing_orbits(&self.shooting).iter();
         grazes.find(is_ahead).cloned()
     }
+}
+
+/// True if a point may be one of many that lie side by side at one value of the parameter, as a fold is, too, which is alone.
+pub(super) fn lies_beside_others(point: &BranchPoint) -> bool {
+    TestFunction::Fold.vanishes_at(&point.monodromy)
 }

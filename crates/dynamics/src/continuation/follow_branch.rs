@@ -6,6 +6,7 @@ use nalgebra::{DVector, Vector2};
 
 use super::branch::Branch;
 use super::chord_and_cubic::passes_place;
+use super::detect_branch_end::lies_beside_others;
 use super::equations::{CurveNode, StepEnds};
 use super::follow_curve::MIN_LOOP_POINTS;
 use super::grazing_test::GrazingTest;
@@ -14,9 +15,7 @@ use super::locate_zero::locate_zero;
 use super::period_map::PeriodMap;
 use super::stepper::Stepper;
 use super::stroboscopic_section::SectionChange;
-use super::{
-    BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint, TestFunction,
-};
+use super::{BranchEnd, BranchLimits, BranchPoint, Continuation, SpecialKind, SpecialPoint};
 use crate::direction::Direction;
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
@@ -268,9 +267,4 @@ impl<'a> Continuation<'a> {
         way.points.push(last);
         Ok(end)
     }
-}
-
-/// True if a point may be one of many that lie side by side at one value of the parameter, as a fold is, too, which is alone.
-fn lies_beside_others(point: &BranchPoint) -> bool {
-    TestFunction::Fold.vanishes_at(&point.monodromy)
 }

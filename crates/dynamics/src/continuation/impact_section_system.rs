@@ -134,7 +134,8 @@ impl<'a, const N: usize> ImpactSectionSystem<'a, N> {
         Ok((critical, node))
     }
 
-    /// The system of resonant grazing of orbits with an impact, and its unknowns near them.
+    /// The system of the resonant grazing, where the weak impact of orbits with a vanishing test becomes a touch, and a guess of its
+    /// unknowns from those of such an orbit.
     pub fn resonant_grazing_system(&self, at: &DVector<f64>) -> (Self, DVector<f64>) {
         let system = Self {
             crossings: self.crossings - 1,

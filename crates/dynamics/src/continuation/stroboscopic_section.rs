@@ -74,7 +74,8 @@ impl<'a> Continuation<'a> {
         })
     }
 
-    /// This continuation with its section in the middle of the orbit's longest flight; none if no crossing is near.
+    /// This continuation with its section in the middle of the orbit's longest flight; none if no crossing lies near the present
+    /// section.
     pub(super) fn with_clear_section(&self, node: &CurveNode<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
         if margin > self.settings.section_margin {

@@ -129,7 +129,7 @@ pub struct StatedFrequency {
 }
 
 impl From<f64> for StatedFrequency {
-    /// The frequency of a zone's error in rad/s, as long as no machine states it in its own unit.
+    /// A frequency in rad/s, as an error tells it until a machine states it in its own unit.
     fn from(value: f64) -> Self {
         let key = Parameter::Frequency.name();
         Self { key, value }

@@ -52,7 +52,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Measures the exponents of motions of a group in turn until one is chaotic: has a positive exponent and still wanders.
+    /// Computes the Lyapunov exponents of the motions of a group, those that wander over the same states, one after the other
+    /// until one is chaotic: its exponent is positive, and it still wanders.
     fn measure_group(&mut self, indices: &[usize]) -> Result<ChaosCandidate, OrbitError> {
         let counts = |index: &&usize| self.members[**index].counts;
         let mut group = ChaosCandidate {
