@@ -114,7 +114,7 @@ impl Machine {
         })
     }
 
-    /// A machine of the paper, started hard enough to strike.
+    /// A machine of Peterka (2003) by its ratios, with a start from which it strikes the stop.
     ///
     /// # Errors
     /// [`SceneError`] if a ratio is out of range.
@@ -159,7 +159,8 @@ impl Machine {
         self.update_followers();
     }
 
-    /// The machine at another frequency of its drive, in rad/s, with what follows it; unchanged if it follows others itself.
+    /// Sets the frequency of the drive, in rad/s, with all parameters that follow it; changes nothing where the frequency itself
+    /// follows others.
     pub fn set_frequency(&mut self, frequency: f64) {
         let dimension = Parameter::Frequency.about().dimension;
         self.set(Parameter::Frequency, self.to_own(dimension, frequency));

@@ -66,7 +66,7 @@ pub struct StripSurvival {
 }
 
 impl StripSurvival {
-    /// Share of the drive angles from which strips may go missing so that the motion comes back.
+    /// Share of the drive angles at which the supply of strips may pause such that the motion comes back after the pause.
     pub fn return_share(&self) -> f64 {
         let back = self.gaps.iter().filter(|gap| gap.comes_back).count();
         back as f64 / self.gaps.len() as f64

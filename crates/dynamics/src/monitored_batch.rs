@@ -6,8 +6,8 @@ use softstop::Start;
 use softstop::internals::budget;
 use softstop_lanes::{BatchObserver, Job, LoweredMachine, Outcome};
 
-/// Follows motions (machine index, state, drive periods) in the lanes on this thread and charges their work to the budget; none
-/// if `ask` or the budget ended the batch.
+/// Follows motions (machine index, state, drive periods) in the lanes on this thread and charges their work to the budget. `ask`
+/// is asked now and then whether to go on; none if it or the budget ended the batch.
 pub(crate) fn follow_batch(
     machines: &[LoweredMachine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,

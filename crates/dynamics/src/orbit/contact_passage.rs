@@ -182,7 +182,7 @@ impl ClearanceSurface {
     }
 }
 
-/// An observer of a contact that gathers until the mass is free again.
+/// An observer of a contact that hands its arcs and crossings to another one, until the mass is free again.
 struct ContactRecorder<T> {
     position: f64,
     gathered: T,

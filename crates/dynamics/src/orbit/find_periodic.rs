@@ -43,7 +43,8 @@ impl Orbit {
         Self::find_with_impacts(scene, state, periods.max(1), MAX_SHOOTING_IMPACTS)
     }
 
-    /// The periodic orbit near a state; from impact to impact it is sought with no more than `most` impacts.
+    /// The periodic orbit near a state, sought by the stroboscopic map and, where that leads to none, by shooting from impact to
+    /// impact with up to `most` impacts.
     fn find_with_impacts(
         scene: &Scene,
         state: Vector2<f64>,

@@ -62,7 +62,8 @@ impl FreeFrequency<'_> {
         MultiSegmentShooting::new(&self.scene_at(at).ok()?, 1)
     }
 
-    /// The derivatives of the impact's residual by the unknowns, by central differences; `here`: the shooting at these.
+    /// Derivatives by the unknowns, by central differences, of the residual at the next impact; `here` is the shooting for the
+    /// scene of these unknowns.
     fn residual_jacobian(
         &self,
         here: &MultiSegmentShooting,
