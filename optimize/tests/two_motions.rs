@@ -76,7 +76,7 @@ fn a_margin_of_the_clearance_is_that_of_the_own_motion() -> Outcome {
 #[test]
 fn a_margin_of_the_clearance_is_where_the_fold_comes_down_to_the_motion() -> Outcome {
     let task = "machine = \"loaded\"\n[vary]\nclearance = [5.0, 20.0]\n[require]\nclearance_margin_sn = 0.3\n";
-    let arguments = "FILE --evaluations=100 --budget=2";
+    let arguments = "--config FILE --evaluations=100 --budget=2";
     let report = OPTIMIZE.report_of("task.toml", task, arguments);
     let margin = required(&report, "clearance_margin_sn");
     let [frequency, clearance] = ["frequency", "clearance"].map(|name| report.number(name));
