@@ -9,10 +9,9 @@ fn graze(stiffness: f64) -> Task {
     task(undriven(0.9999, stiffness), 0.0, 1.0, 2.0 * TAU)
 }
 
-/// 102 steps to a period leave both grazes in the middle of a step: two crossings within one step cancel, events
-/// located or not. (The errors of first-order schemes decide for themselves whether these reach the stop.)
+/// 102 steps to a period leave both grazes in the middle of a step.
 #[test]
-fn fixed_steps_miss_a_graze_within_one_step() {
+fn a_located_method_misses_a_graze_within_one_step() {
     for stiffness in [1.0, 1e4] {
         let task = graze(stiffness);
         let found = exact(&task);
@@ -20,15 +19,10 @@ fn fixed_steps_miss_a_graze_within_one_step() {
         assert_near(found.impacts[0].time, 0.9999_f64.asin(), 10.0 * ROUNDING);
         let speed = (1.0 - 0.9999_f64.powi(2)).sqrt();
         assert_near(found.impacts[0].velocity, speed, 10.0 * ROUNDING);
-        for coarse in FixedStep::all(TAU / 102.0) {
-            if coarse.scheme.order() > 1 {
-                let impacts = coarse.integrate(&task).expect("bounded").impacts;
-                assert!(impacts.is_empty(), "{}", coarse.name());
-            }
-        }
         for scheme in [Scheme::RungeKutta4, Scheme::NEWMARK] {
             let coarse = fixed(scheme, Events::Located, TAU / 102.0);
             assert_eq!(verdict(&coarse, &task), Verdict::MissedContact);
+            assert!(coarse.integrate(&task).expect("bounded").impacts.is_empty());
         }
         let fine = fixed(Scheme::RungeKutta4, Events::Located, TAU / 2002.0);
         assert_eq!(verdict(&fine, &task), Verdict::Converged);

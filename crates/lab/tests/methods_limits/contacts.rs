@@ -5,6 +5,52 @@ use softstop::Start;
 use softstop_testing::assert_near;
 use softstop_testing::tolerance::SOLVED;
 
+/// The paper's machine from rest with a velocity at which it just reaches the stop within the first period.
+fn grazing() -> Task {
+    let task = |velocity| {
+        Task::new(
+            Ratios::unloaded().scene().expect("valid"),
+            Start::new(0.0, velocity),
+            0.5,
+            1_000_000,
+        )
+    };
+    let strikes = |velocity| {
+        !Exact
+            .integrate(&task(velocity))
+            .expect("exact")
+            .impacts
+            .is_empty()
+    };
+    let (mut misses, mut hits) = (5.0, 14.0);
+    assert!(!strikes(misses) && strikes(hits));
+    while hits - misses > 1e-9 {
+        let middle = 0.5 * (misses + hits);
+        if strikes(middle) {
+            hits = middle;
+        } else {
+            misses = middle;
+        }
+    }
+    task(hits + 1e-6)
+}
+
+/// Two crossings within one step cancel: every method of fixed steps misses a graze that is shorter than its
+/// step, events located or not; and sees it with steps that are short enough. The exact one needs none.
+#[test]
+fn a_graze_is_stepped_over() {
+    let task = grazing();
+    assert_eq!(Exact.integrate(&task).expect("exact").impacts.len(), 1);
+    // The errors of first-order schemes decide for themselves whether these reach the stop.
+    let accurate = |method: &FixedStep| method.scheme.order() > 1;
+    for method in FixedStep::all(0.01).into_iter().filter(accurate) {
+        let found = method.integrate(&task).expect("bounded");
+        assert!(found.impacts.is_empty(), "{}", method.name());
+    }
+    let fine = FixedStep::new(Scheme::RungeKutta4, 1e-4, Events::Located);
+    assert_eq!(fine.integrate(&task).expect("bounded").impacts.len(), 1);
+}
+
 /// Bounces that come to rest on a stop that the mass is pressed onto: located steps of second order and higher
 /// follow them down to the rounding of a position, those of Moreau come to rest after the few that they see, all
 /// others bounce on the grid for ever or stick too early. (Explicit Euler's shortest flights are straight,
