@@ -79,7 +79,8 @@ fn a_margin_of_the_clearance_is_where_the_fold_comes_down_to_the_motion() -> Out
     let arguments = "--config FILE --evaluations=100 --budget=2";
     let report = OPTIMIZE.report_of("task.toml", task, arguments);
     let margin = required(&report, "clearance_margin_sn");
-    let [frequency, clearance] = ["frequency", "clearance"].map(|name| report.number(name));
+    let [frequency, clearance] =
+        ["frequency", "clearance"].map(|name| report.number(&format!("design/{name}")));
     let fold = |share: f64| {
         let clearance = format!("clearance={}", clearance + share * margin);
         let zone = SOFTSTOP.json(&["zone", "loaded", "--set", &clearance]);
